@@ -1,0 +1,34 @@
+# A room is a folder of engine/ and one object library: flowdlo_room(path SOURCES ... DEPENDS ...).
+# Includes are written from engine/: #include "path/path.hpp".
+
+set(FLOWDLO_WARNINGS -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion
+                     -Wnon-virtual-dtor -Wold-style-cast)
+if(FLOWDLO_WERROR)
+  list(APPEND FLOWDLO_WARNINGS -Werror)
+endif()
+
+add_library(flowdlo_options INTERFACE)
+target_compile_features(flowdlo_options INTERFACE cxx_std_20)
+target_compile_options(flowdlo_options INTERFACE ${FLOWDLO_WARNINGS})
+if(FLOWDLO_SANITIZE)
+  target_compile_options(flowdlo_options INTERFACE -fsanitize=${FLOWDLO_SANITIZE}
+                                                   -fno-omit-frame-pointer -fno-sanitize-recover=all)
+  target_link_options(flowdlo_options INTERFACE -fsanitize=${FLOWDLO_SANITIZE})
+endif()
+
+define_property(GLOBAL PROPERTY FLOWDLO_ROOMS BRIEF_DOCS "Object libraries that make up flowdlo")
+
+function(flowdlo_room name)
+  cmake_parse_arguments(ROOM "" "" "SOURCES;DEPENDS" ${ARGN})
+  set(target flowdlo_${name})
+  add_library(${target} OBJECT ${ROOM_SOURCES})
+  target_include_directories(${target} PUBLIC "${PROJECT_SOURCE_DIR}/include"
+                                              "${PROJECT_BINARY_DIR}/include"
+                                              "${PROJECT_SOURCE_DIR}/engine")
+  target_include_directories(${target} SYSTEM PUBLIC ${OpenCV_INCLUDE_DIRS})
+  target_link_libraries(${target} PUBLIC flowdlo_options Eigen3::Eigen ${ROOM_DEPENDS})
+  set_target_properties(${target} PROPERTIES POSITION_INDEPENDENT_CODE ON
+                                             CXX_VISIBILITY_PRESET hidden
+                                             VISIBILITY_INLINES_HIDDEN ON)
+  set_property(GLOBAL APPEND PROPERTY FLOWDLO_ROOMS ${target})
+endfunction()

@@ -1,0 +1,51 @@
+// Gate: the plausibility check and fallback, Eq. (3.30)-(3.33).
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "flowdlo/centerline.hpp"
+#include "flowdlo/estimate.hpp"
+#include "flowdlo/frame.hpp"
+
+namespace flowdlo::gate {
+
+struct Limits {
+  float min_length_ratio = 0.5F;       ///< Eq. (3.31)
+  float max_length_ratio = 2.0F;       ///< Eq. (3.31)
+  float max_segment_share = 0.10F;     ///< Eq. (3.31)
+  float mask_agreement_slack = 0.05F;  ///< Eq. (3.32)
+  float mask_dilation_px = 4.0F;       ///< Sec. 3.6, of a 640-px-wide image
+};
+
+/// The mask dilated by a disc of mask_dilation_px * width / 640 pixels.
+class DilatedMask {
+ public:
+  DilatedMask(const Frame& frame, const Limits& limits = {});
+
+  /// S_M(X), Eq. (3.32): the share of one-pixel samples along the projected curve that fall on the
+  /// dilated mask. Samples outside the image or behind the camera count as misses.
+  [[nodiscard]] float agreement(const Centerline& nodes, const Intrinsics& camera) const;
+
+ private:
+  int width_;
+  int height_;
+  std::vector<std::uint8_t> covered_;  ///< [height, width]
+};
+
+struct Verdict {
+  Source source = Source::kPrior;
+  int draw = -1;  ///< accepted draw of highest mask agreement, ties to the lower index; -1: prior
+  float prior_agreement = 0;
+  std::vector<DrawReport> draws;
+};
+
+/// Eq. (3.33) over D draws, each against the prior it was conditioned on (`priors[d]`).
+/// `fallback_prior` is what the verdict returns when no draw is accepted.
+[[nodiscard]] Verdict choose(std::span<const Centerline> predictions,
+                             std::span<const Centerline> priors, const Centerline& fallback_prior,
+                             const DilatedMask& mask, const Intrinsics& camera,
+                             const Limits& limits = {});
+
+}  // namespace flowdlo::gate

@@ -1,0 +1,29 @@
+// Polylines of any dimension: arclength and resampling, Eq. (3.1), (3.2), (3.30).
+#pragma once
+
+#include <Eigen/Core>
+#include <span>
+#include <vector>
+
+#include "flowdlo/centerline.hpp"
+
+namespace flowdlo::geometry {
+
+/// [M] arclength from the first point to each point; the first is 0. Eq. (3.1).
+[[nodiscard]] std::vector<float> cumulative_length(std::span<const Eigen::Vector2f> points);
+[[nodiscard]] std::vector<float> cumulative_length(std::span<const Eigen::Vector3f> points);
+
+/// `count` points at uniform arclength; first and last are the input's exactly. Eq. (3.2).
+/// `points` must hold at least one point; a polyline of no length repeats its first point.
+[[nodiscard]] std::vector<Eigen::Vector2f> resample(std::span<const Eigen::Vector2f> points,
+                                                    int count);
+[[nodiscard]] std::vector<Eigen::Vector3f> resample(std::span<const Eigen::Vector3f> points,
+                                                    int count);
+
+/// L(X), metres. Eq. (3.30).
+[[nodiscard]] float length(const Centerline& nodes);
+
+/// True when every coordinate is finite.
+[[nodiscard]] bool all_finite(const Centerline& nodes);
+
+}  // namespace flowdlo::geometry

@@ -1,0 +1,37 @@
+// Path: the ordered 2D polyline of the rope in the image, end to end, Sec. 3.3.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <vector>
+
+#include "flowdlo/frame.hpp"
+#include "flowdlo/result.hpp"
+
+namespace flowdlo::path {
+
+/// One traversal of the mask. Samples are about one pixel apart where the mask backs them; a
+/// bridged gap is sampled just as densely.
+struct Path {
+  std::vector<Eigen::Vector2f> points_px;  ///< [M, 2] (u, v), consecutive ones distinct, M >= 2
+  std::vector<std::uint8_t> bridged;       ///< [M] 1 where the sample lies on a link over a gap
+  double score = 0;                        ///< higher is better; comparable within a frame
+};
+
+/// The traversals of one frame, best first; never empty.
+struct Traversals {
+  std::vector<Path> ranked;
+  float margin = 1;         ///< in [0, 1]: 0 when the runner-up ties, 1 when nothing comes near
+  float rope_width_px = 0;  ///< median width of the mask across the skeleton
+};
+
+struct TraceConfig {
+  int alternatives = 3;     ///< kept beside the best
+  double rope_length_m = 0;  ///< known length; 0: unknown
+};
+
+/// Mask (and depth, where there is any) to ordered paths. Expects a valid frame. Fails with
+/// kNoPath, saying why, when the mask holds no stroke a rope could have drawn.
+[[nodiscard]] Result<Traversals> trace(const Frame& frame, const TraceConfig& config = {});
+
+}  // namespace flowdlo::path

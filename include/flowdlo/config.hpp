@@ -1,0 +1,33 @@
+// Config: what Estimator::create needs to know. Checked once, there.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+
+namespace flowdlo {
+
+struct Config {
+  /// A .fdw file. Empty: `share/flowdlo/flowdlo.fdw` beside the library's installation.
+  std::filesystem::path weights;
+
+  /// "auto": the best real GPU whose self-test passes, otherwise the CPU back end, never a CPU
+  /// Vulkan driver. "cpu": the native back end. "vulkan": any Vulkan device, a GPU first. Anything
+  /// else: part of a device's name, or its UUID, as `flowdlo devices` prints them.
+  std::string device = "auto";
+
+  int euler_steps = 10;    ///< K in Eq. (3.26); 1..64
+  int draws = 4;           ///< Gaussian sources a frame, Sec. 4.1.3; 1..64
+  std::uint64_t seed = 0;  ///< of the sources x_0; same seed and device: the same bits
+  int threads = 0;         ///< of the CPU back end; 0: one for each core
+
+  /// Largest frame for which memory is set aside. A larger one still works: its first call
+  /// allocates again.
+  int max_width = 1280;
+  int max_height = 720;
+
+  int device_timeout_ms = 10000;  ///< a frame that takes longer on a GPU is kDeviceLost
+  bool validation = false;        ///< Vulkan's validation layers, where installed; slow
+};
+
+}  // namespace flowdlo

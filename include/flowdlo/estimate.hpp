@@ -1,0 +1,77 @@
+// Estimate: what a caller gets for one frame.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "flowdlo/centerline.hpp"
+
+namespace flowdlo {
+
+/// Which branch of Eq. (3.33) produced the nodes.
+enum class Source { kPrediction, kPrior };
+
+/// The gate's view of one draw, Eq. (3.30)-(3.32).
+struct DrawReport {
+  bool accepted = false;
+  bool finite = false;          ///< every coordinate of the draw is finite
+  float length_ratio = 0;       ///< L(prediction) / L(prior), Eq. (3.31)
+  float max_segment_share = 0;  ///< longest segment / L(prediction), Eq. (3.31)
+  float mask_agreement = 0;     ///< S_M, Eq. (3.32), in [0, 1]
+};
+
+/// A traversal that lost to the returned one, and how close it came.
+struct Alternative {
+  Centerline nodes{};        ///< lifted like the prior, camera frame, metres
+  float score = 0;           ///< of the traversal, higher is better; comparable within a frame
+  float mask_agreement = 0;  ///< S_M, Eq. (3.32)
+};
+
+/// Milliseconds of each stage of one call.
+struct Timings {
+  double evidence_ms = 0;    ///< Sec. 3.2
+  double path_ms = 0;        ///< Sec. 3.3, mask to ordered path
+  double prior_ms = 0;       ///< Eq. (3.1)-(3.7)
+  double mask_field_ms = 0;  ///< the field that the local features of Eq. (3.15) read
+  double model_ms = 0;       ///< Eq. (3.26)-(3.28), upload and read-back included
+  double gate_ms = 0;        ///< Eq. (3.30)-(3.33)
+  double total_ms = 0;
+  /// The parts of model_ms, as the device's clock saw them, in order of execution.
+  std::vector<std::pair<std::string, double>> device_ms;
+};
+
+struct Estimate {
+  Centerline nodes{};                        ///< [64, 3] end to end, camera frame, metres
+  std::array<std::uint8_t, kNodes> support{};  ///< h_i, Eq. (3.6): 1 where a visible point backs it
+  std::array<float, kNodes> sigma_m{};       ///< standard deviation a node, metres; not calibrated
+  Source source = Source::kPrior;            ///< which branch of Eq. (3.33)
+  int draw = -1;                             ///< index of the returned draw; -1: the prior
+  float confidence = 0;                      ///< in [0, 1]; ranks frames, not calibrated
+  float mask_agreement = 0;                  ///< S_M of `nodes`, Eq. (3.32), in [0, 1]
+  float prior_mask_agreement = 0;            ///< S_M of the prior
+  std::vector<DrawReport> draws;             ///< one for each draw
+  std::vector<Alternative> alternatives;     ///< best first; may be empty
+  Timings timings;
+};
+
+/// The tensors behind one estimate, for parity tests and for the curious. Shapes outermost first;
+/// D draws, camera frame, metres unless said otherwise.
+struct Tensors {
+  int draws = 0;
+  int field_width = 0;                       ///< W / 2
+  int field_height = 0;                      ///< H / 2
+  std::vector<float> source;                 ///< [D, 64, 3] x_0, normalised space
+  std::vector<float> visible;                ///< [256, 3]
+  std::vector<std::uint8_t> visible_valid;   ///< [256]
+  std::vector<float> path;                   ///< [M, 2] pixels (u, v)
+  std::vector<float> prior;                  ///< [64, 3]
+  std::vector<std::uint8_t> support;         ///< [64]
+  std::vector<float> draw_prior;             ///< [D, 64, 3]
+  std::vector<std::uint8_t> draw_support;    ///< [D, 64]
+  std::vector<float> prediction;             ///< [D, 64, 3] before the gate
+  std::vector<float> mask_field;             ///< [4, H/2, W/2] mask, smoothed, u and v (half px)
+};
+
+}  // namespace flowdlo

@@ -1,0 +1,34 @@
+// Frame: one RGB-D observation of one rope, as views into the caller's memory.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "flowdlo/export.hpp"
+#include "flowdlo/result.hpp"
+
+namespace flowdlo {
+
+/// Pinhole camera, pixels; the centre of the top left pixel is (0, 0). Eq. (2.2).
+struct Intrinsics {
+  float fx = 0;
+  float fy = 0;
+  float cx = 0;
+  float cy = 0;
+};
+
+/// One observation. Views only: the caller keeps the memory alive during the call. Images are
+/// row-major without padding. Depth and mask are aligned to the camera of `intrinsics`.
+struct Frame {
+  int width = 0;   ///< pixels, 1..4096
+  int height = 0;  ///< pixels, 1..4096
+  Intrinsics intrinsics;
+  std::span<const float> depth_m;           ///< [height, width] z-depth, metres; 0 or not finite: none
+  std::span<const std::uint8_t> mask;       ///< [height, width] the rope where > 127
+  std::span<const std::uint8_t> color_bgr;  ///< [height, width, 3], or empty: not needed
+};
+
+/// Succeeds when sizes fit and the intrinsics are usable; otherwise kBadInput with every fault.
+[[nodiscard]] FLOWDLO_EXPORT Result<void> validate(const Frame& frame);
+
+}  // namespace flowdlo

@@ -1,0 +1,47 @@
+// FrameFolder: a frame on disk (color.png, depth.png, mask.png, camera.json).
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "flowdlo/centerline.hpp"
+#include "flowdlo/export.hpp"
+#include "flowdlo/frame.hpp"
+#include "flowdlo/result.hpp"
+
+namespace flowdlo {
+
+/// A frame that owns its pixels.
+struct FrameFolder {
+  std::string name;  ///< the folder's own name
+  int width = 0;
+  int height = 0;
+  Intrinsics intrinsics;
+  std::vector<float> depth_m;
+  std::vector<std::uint8_t> mask;
+  std::vector<std::uint8_t> color_bgr;
+  std::optional<Centerline> truth;  ///< truth.csv, when present
+
+  /// Views into this object: keep it alive while the frame is used.
+  [[nodiscard]] Frame frame() const {
+    return {width, height, intrinsics, depth_m, mask, color_bgr};
+  }
+};
+
+/// Reads `folder`. camera.json may be our own form, BOP's (cam_K, depth_scale in mm) or Open3D's
+/// (intrinsic_matrix, column-major). Fails with kIo or kBadInput, naming the file and the remedy;
+/// every fault found is listed.
+[[nodiscard]] FLOWDLO_EXPORT Result<FrameFolder> load_frame_folder(
+    const std::filesystem::path& folder);
+
+/// Writes `frame` (and `truth`, when given) as a frame folder, depth in steps of `depth_scale`
+/// metres; each file under a temporary name first. Fails with kIo or kBadInput.
+[[nodiscard]] FLOWDLO_EXPORT Result<void> save_frame_folder(const std::filesystem::path& folder,
+                                                            const Frame& frame,
+                                                            double depth_scale,
+                                                            const Centerline* truth = nullptr);
+
+}  // namespace flowdlo
