@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "geometry/camera.hpp"
 
@@ -56,12 +57,18 @@ std::vector<Eigen::Vector3f> resample(std::span<const Eigen::Vector3f> points, i
   return resample_any(points, count);
 }
 
-float length(const Centerline& nodes) {
-  double total = 0;
-  for (std::size_t i = 1; i < nodes.size(); ++i) {
-    total += (to_eigen(nodes[i]) - to_eigen(nodes[i - 1])).norm();
+std::array<double, kNodes - 1> segment_lengths(const Centerline& nodes) {
+  std::array<double, kNodes - 1> lengths{};
+  for (std::size_t i = 0; i < lengths.size(); ++i) {
+    const Eigen::Vector3d from = to_eigen(nodes[i]).cast<double>();
+    lengths[i] = (to_eigen(nodes[i + 1]).cast<double>() - from).norm();  // Eq. (3.30)
   }
-  return static_cast<float>(total);
+  return lengths;
+}
+
+float length(const Centerline& nodes) {
+  const auto lengths = segment_lengths(nodes);
+  return static_cast<float>(std::accumulate(lengths.begin(), lengths.end(), 0.0));  // Eq. (3.30)
 }
 
 bool all_finite(const Centerline& nodes) {

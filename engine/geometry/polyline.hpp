@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <span>
 #include <vector>
 
@@ -19,6 +20,9 @@ namespace flowdlo::geometry {
                                                     int count);
 [[nodiscard]] std::vector<Eigen::Vector3f> resample(std::span<const Eigen::Vector3f> points,
                                                     int count);
+
+/// [63] d_i(X), metres, in double so that no finite centerline overflows. Eq. (3.30).
+[[nodiscard]] std::array<double, kNodes - 1> segment_lengths(const Centerline& nodes);
 
 /// L(X), metres. Eq. (3.30).
 [[nodiscard]] float length(const Centerline& nodes);
