@@ -55,7 +55,7 @@ struct Linear {
   LinearLayer layer;
   Tensor y;
   Activation activation = Activation::kNone;
-  std::optional<Tensor> residual;
+  std::optional<Tensor> residual = std::nullopt;
 };
 
 /// y = act(x W^T + b) + first + second. x [R, 4] or [R, 8]; the layer's `in` is at most x.columns,
@@ -65,8 +65,8 @@ struct Narrow {
   LinearLayer layer;
   Tensor y;
   Activation activation = Activation::kNone;
-  std::optional<Addend> first;
-  std::optional<Addend> second;
+  std::optional<Addend> first = std::nullopt;
+  std::optional<Addend> second = std::nullopt;
 };
 
 /// y[r, :] = (x[r, :] - mean) / sqrt(var + 1e-5) * gain + shift, two-pass. x, y [R, 256];
@@ -90,7 +90,7 @@ struct Attention {
   int key_column = 0;
   int value_column = 0;
   bool per_draw = true;
-  std::optional<Tensor> key_valid;
+  std::optional<Tensor> key_valid = std::nullopt;
   Tensor out;  ///< [R, 256], heads contiguous
 };
 
@@ -140,7 +140,7 @@ struct MaskFeatures {
   Tensor norm;
   Tensor params;
   Tensor field;
-  std::optional<Tensor> depth;
+  std::optional<Tensor> depth = std::nullopt;
   Tensor out;
 };
 

@@ -1,0 +1,17 @@
+// Which instruction set a kernel file is being compiled for; set by CMake. See kernels.hpp.
+#pragma once
+
+#ifndef FLOWDLO_ISA
+#define FLOWDLO_ISA baseline
+#endif
+
+#include "reference/kernels.hpp"
+
+namespace flowdlo::reference::FLOWDLO_ISA {
+
+void linear(const LinearBlock& block);
+void narrow(const NarrowBlock& block);
+void layer_norm(const LayerNormBlock& block);
+void attention(const AttentionBlock& block);
+
+}  // namespace flowdlo::reference::FLOWDLO_ISA

@@ -1,0 +1,77 @@
+// Kernels: the dense operations on one block of rows, once for each instruction set.
+//
+// linear.cpp, narrow.cpp, layer_norm.cpp and attention.cpp are compiled several times, each time
+// into the namespace named by FLOWDLO_ISA and with Eigen's own namespace renamed, so that the
+// linker cannot mix code of two instruction sets. They take plain pointers for the same reason.
+#pragma once
+
+#include <cstddef>
+
+#include "ops/program.hpp"
+
+namespace flowdlo::reference {
+
+/// y[0:rows, :] = act(x W^T + b) + residual for columns [column, column + columns) of y.
+struct LinearBlock {
+  const float* x;         ///< [rows, in]
+  const float* weight;    ///< [out, in], PyTorch's layout
+  const float* bias;      ///< [out]
+  const float* residual;  ///< [rows, out], or null; may be y
+  float* y;               ///< [rows, out]
+  int rows;
+  int in;
+  int out;
+  int column;
+  int columns;
+  ops::Activation activation;
+};
+
+/// y = act(x W^T + b) + first + second; see ops::Narrow.
+struct NarrowBlock {
+  const float* x;       ///< [rows, x_columns]
+  const float* weight;  ///< [out, in]
+  const float* bias;
+  float* y;  ///< [rows, out]
+  int rows;
+  int x_columns;
+  int in;
+  int out;
+  ops::Activation activation;
+};
+
+struct LayerNormBlock {
+  const float* x;      ///< [rows, 256]
+  const float* gain;   ///< [256]
+  const float* shift;  ///< [256]
+  float* y;            ///< [rows, 256]
+  int rows;
+};
+
+/// One head of one draw: 64 queries against `keys` keys.
+struct AttentionBlock {
+  const float* query;  ///< first query's channel 0 of this head
+  const float* key;
+  const float* value;
+  const float* key_valid;  ///< [keys, 4], column 3 above 0.5 is valid; null: all are
+  float* out;              ///< first row's channel 0 of this head
+  int query_stride;        ///< floats from one row to the next
+  int key_value_stride;
+  int out_stride;
+  int keys;  ///< at most kMaxKeys
+};
+
+inline constexpr int kMaxKeys = 256;
+
+/// The entries of one instruction set.
+struct Kernels {
+  const char* isa;
+  void (*linear)(const LinearBlock&);
+  void (*narrow)(const NarrowBlock&);
+  void (*layer_norm)(const LayerNormBlock&);
+  void (*attention)(const AttentionBlock&);
+};
+
+/// The widest instruction set that both this build and this processor have.
+[[nodiscard]] Kernels kernels_of_this_cpu();
+
+}  // namespace flowdlo::reference
