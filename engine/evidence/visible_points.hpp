@@ -26,7 +26,8 @@ struct VisiblePoints {
   int count = 0;
 };
 
-/// Mask > 0.5 (above 127), depth finite and above 1e-6 m, Eq. (2.2). Expects a valid frame.
+/// Mask > 0.5 (above 127), depth finite and above 1e-6 m, Eq. (2.2). Expects a valid frame. A pixel
+/// whose point is not finite (a depth near the end of the float range) is left out.
 [[nodiscard]] Cloud unproject(const Frame& frame);
 
 /// The point at which farthest-point sampling starts is the one farthest from this: the mean of

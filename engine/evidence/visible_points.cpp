@@ -1,0 +1,89 @@
+// Sec. 3.2: visible 3D evidence from mask, depth and intrinsics.
+#include "evidence/visible_points.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <vector>
+
+#include "geometry/camera.hpp"
+#include "reference/farthest_points.hpp"
+
+namespace flowdlo::evidence {
+namespace {
+
+constexpr float kMinDepth_m = 1e-6F;          // Sec. 3.2
+constexpr std::uint8_t kMaskThreshold = 127;  // 0.5 of an 8-bit mask
+
+/// True when none of the eight values from `mask` on is above kMaskThreshold, the top bit's weight.
+bool eight_unmasked(const std::uint8_t* mask) {
+  std::uint64_t word = 0;
+  std::memcpy(&word, mask, sizeof word);
+  return (word & 0x8080808080808080U) == 0;
+}
+
+bool is_finite(const Point3& point) {
+  return std::isfinite(point.x) && std::isfinite(point.y) && std::isfinite(point.z);
+}
+
+void append_row(const Frame& frame, int v, Cloud& cloud) {
+  const int first = v * frame.width;
+  const std::uint8_t* const mask = frame.mask.data() + first;
+  for (int u = 0; u < frame.width; ++u) {
+    while (u + 8 <= frame.width && eight_unmasked(mask + u)) u += 8;
+    if (u >= frame.width || mask[u] <= kMaskThreshold) continue;
+    const float depth_m = frame.depth_m[static_cast<std::size_t>(first + u)];
+    if (!std::isfinite(depth_m) || depth_m <= kMinDepth_m) continue;
+    const Point3 point = geometry::unproject(frame.intrinsics, static_cast<float>(u),
+                                             static_cast<float>(v), depth_m);  // Eq. (2.2)
+    if (!is_finite(point)) continue;  // a depth near the end of the float range
+    cloud.points_cam.push_back(point);
+    cloud.pixels.push_back(first + u);
+  }
+}
+
+}  // namespace
+
+Cloud unproject(const Frame& frame) {
+  Cloud cloud;
+  for (int v = 0; v < frame.height; ++v) append_row(frame, v, cloud);
+  return cloud;
+}
+
+Point3 centroid(const Cloud& cloud) {
+  if (cloud.points_cam.empty()) return {};
+  double x = 0;
+  double y = 0;
+  double z = 0;
+  for (const Point3& point : cloud.points_cam) {
+    x += static_cast<double>(point.x);
+    y += static_cast<double>(point.y);
+    z += static_cast<double>(point.z);
+  }
+  const auto count = static_cast<double>(cloud.points_cam.size());
+  return {static_cast<float>(x / count), static_cast<float>(y / count),
+          static_cast<float>(z / count)};
+}
+
+VisiblePoints visible_points(const Cloud& cloud) {
+  const auto count = static_cast<int>(cloud.points_cam.size());
+  std::vector<float> cloud_xyzw;
+  cloud_xyzw.reserve(4 * cloud.points_cam.size());
+  for (const Point3& point : cloud.points_cam) {
+    cloud_xyzw.insert(cloud_xyzw.end(), {point.x, point.y, point.z, 0.0F});
+  }
+  const Point3 mean = centroid(cloud);
+  const float mean_xyz[3] = {mean.x, mean.y, mean.z};
+  std::array<float, 4 * kVisiblePoints> rows{};
+  reference::farthest_points(cloud_xyzw, count, mean_xyz, rows);
+
+  VisiblePoints visible;
+  visible.count = std::min(count, kVisiblePoints);
+  for (std::size_t i = 0; i < kVisiblePoints; ++i) {
+    visible.points_cam[i] = {rows[4 * i], rows[4 * i + 1], rows[4 * i + 2]};
+    visible.valid[i] = rows[4 * i + 3] > 0.5F ? 1 : 0;
+  }
+  return visible;
+}
+
+}  // namespace flowdlo::evidence
