@@ -25,7 +25,10 @@ class DilatedMask {
   DilatedMask(const Frame& frame, const Limits& limits = {});
 
   /// S_M(X), Eq. (3.32): the share of one-pixel samples along the projected curve that fall on the
-  /// dilated mask. Samples outside the image or behind the camera count as misses.
+  /// dilated mask, in [0, 1]. A segment is sampled 0, 1, 2, ... px from its start, at least once;
+  /// the last node closes the curve. Samples outside the image are misses. A segment with an end
+  /// behind the camera has no finite projection: it misses as often as the image's diagonal is
+  /// long. A centerline that is not finite: 0.
   [[nodiscard]] float agreement(const Centerline& nodes, const Intrinsics& camera) const;
 
  private:
