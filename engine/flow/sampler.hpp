@@ -1,0 +1,98 @@
+// Sampler: conditions in, D predictions out; every Euler step of every draw in one run, Sec. 3.6.
+#pragma once
+
+#include <array>
+#include <functional>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "evidence/mask_field.hpp"
+#include "evidence/visible_points.hpp"
+#include "flowdlo/centerline.hpp"
+#include "flowdlo/frame.hpp"
+#include "flowdlo/result.hpp"
+#include "ops/program.hpp"
+#include "prior/prior.hpp"
+#include "weights/weights.hpp"
+
+namespace flowdlo::flow {
+
+/// Sizes for which a program sets memory aside.
+struct Capacity {
+  int cloud_points = 0;
+  int field_texels = 0;
+  int image_pixels = 0;  ///< of the depth image; used by 8 local channels alone
+};
+
+struct SamplerConfig {
+  int draws = 4;           ///< 1..64
+  int steps = 10;          ///< K, 1..64
+  std::uint64_t seed = 0;  ///< of the sources x_0
+  Capacity capacity;
+};
+
+/// One frame's conditions, Eq. (3.11). `draw_priors` holds one prior for each draw.
+struct SampleInput {
+  const Frame& frame;
+  const evidence::Cloud& cloud;
+  const evidence::MaskField& field;
+  std::span<const prior::Prior> draw_priors;
+};
+
+struct Prediction {
+  std::vector<Centerline> draws;                   ///< [D, 64, 3] camera frame, metres
+  std::vector<std::array<float, kNodes>> sigma_m;  ///< [D, 64]; empty without the fourth head
+  evidence::VisiblePoints visible;                 ///< P_obs as the back end sampled it
+};
+
+/// Makes empty programs on the back end of choice.
+using ProgramFactory = std::function<std::unique_ptr<ops::Program>()>;
+
+class Sampler {
+ public:
+  /// Records, compiles and warms up. Fails with kDeviceLost or kNoDevice.
+  [[nodiscard]] static Result<Sampler> create(std::shared_ptr<const weights::Weights> weights,
+                                              ProgramFactory factory, const SamplerConfig& config);
+
+  /// One run. A frame beyond the capacity makes the program anew, once, with more.
+  [[nodiscard]] Result<Prediction> sample(const SampleInput& input);
+
+  /// x_0 [D, 64, 4], normalised space; column 3 is zero.
+  [[nodiscard]] const std::vector<float>& source() const { return source_; }
+
+  /// Of the last run, by stage.
+  [[nodiscard]] std::vector<std::pair<std::string, double>> stage_times_ms() const {
+    return program_->stage_times_ms();
+  }
+
+ private:
+  struct Handles {
+    ops::Tensor cloud;
+    ops::Tensor params;
+    ops::Tensor field;
+    std::optional<ops::Tensor> depth;
+    ops::Tensor draw_prior;
+    ops::Tensor source;
+    ops::Tensor visible;
+    ops::Tensor norm;
+    ops::Tensor prediction;
+  };
+
+  Sampler(std::shared_ptr<const weights::Weights> weights, ProgramFactory factory,
+          const SamplerConfig& config);
+  [[nodiscard]] Result<void> build();
+  [[nodiscard]] Result<void> ensure_capacity(const SampleInput& input);
+  void write(const SampleInput& input);
+  [[nodiscard]] Prediction read(int point_count) const;
+
+  std::shared_ptr<const weights::Weights> weights_;
+  ProgramFactory factory_;
+  SamplerConfig config_;
+  std::vector<float> source_;
+  std::unique_ptr<ops::Program> program_;
+  Handles handles_;
+  std::vector<float> staging_;  // reused by every call
+};
+
+}  // namespace flowdlo::flow
