@@ -1,0 +1,124 @@
+#include "estimator/device_choice.hpp"
+
+#include <algorithm>
+
+#include "estimator/self_test.hpp"
+#include "flowdlo/devices.hpp"
+#include "reference/program.hpp"
+
+#ifdef FLOWDLO_WITH_VULKAN
+#include "vulkan/backend.hpp"
+#endif
+
+namespace flowdlo::estimator {
+namespace {
+
+#ifdef FLOWDLO_WITH_VULKAN
+
+/// Smaller is better; CPU drivers and unknown kinds are no real GPUs.
+int rank(DeviceKind kind) {
+  switch (kind) {
+    case DeviceKind::kDiscreteGpu:
+      return 0;
+    case DeviceKind::kIntegratedGpu:
+      return 1;
+    case DeviceKind::kVirtualGpu:
+      return 2;
+    case DeviceKind::kCpu:
+    case DeviceKind::kOther:
+      return 3;
+  }
+  return 3;
+}
+
+bool is_real_gpu(const DeviceReport& report) { return rank(report.kind) < 3; }
+
+Result<BackEnd> open_vulkan(const Config& config, const std::string& wanted) {
+  auto opened = vulkan::open_device(
+      {.wanted = wanted, .allow_cpu_driver = true, .validation = config.validation});
+  if (!opened) return opened.error();
+  const auto device = *opened;
+  const vulkan::ProgramOptions options{.timeout_ms = config.device_timeout_ms,
+                                       .pipeline_cache = {}};
+  return BackEnd{vulkan::report(*device).name,
+                 [device, options] { return vulkan::create_program(device, options); }};
+}
+
+/// Usable devices in the order in which "auto" tries them.
+std::vector<DeviceReport> real_gpus(std::vector<DeviceReport> reports) {
+  std::erase_if(reports, [](const DeviceReport& report) {
+    return !is_real_gpu(report) || !report.lacks.empty();
+  });
+  std::stable_sort(
+      reports.begin(), reports.end(),
+      [](const DeviceReport& a, const DeviceReport& b) { return rank(a.kind) < rank(b.kind); });
+  return reports;
+}
+
+BackEnd choose_automatically(const Config& config) {
+  for (const DeviceReport& report : real_gpus(vulkan::survey().devices)) {
+    auto back_end = open_vulkan(config, report.uuid);
+    if (back_end && self_test(back_end->make_program).passed) return *back_end;
+  }
+  return cpu_back_end(config.threads);
+}
+
+#else
+
+Result<BackEnd> open_vulkan(const Config& config, const std::string&) {
+  return Error{ErrorCode::kNoDevice, "Config.device: expected \"auto\" or \"cpu\", got \"" +
+                                         config.device +
+                                         "\"; this library was built without Vulkan"};
+}
+
+BackEnd choose_automatically(const Config& config) { return cpu_back_end(config.threads); }
+
+#endif
+
+}  // namespace
+
+BackEnd cpu_back_end(int threads) {
+  return {"cpu", [threads] { return reference::create_program(threads); }};
+}
+
+Result<BackEnd> choose_back_end(const Config& config) {
+  if (config.device == "cpu") return cpu_back_end(config.threads);
+  if (config.device == "auto") return choose_automatically(config);
+  return open_vulkan(config, config.device);
+}
+
+}  // namespace flowdlo::estimator
+
+namespace flowdlo {
+
+DeviceSurvey survey_devices(bool self_test) {
+  DeviceSurvey survey;
+#ifdef FLOWDLO_WITH_VULKAN
+  vulkan::Survey found = vulkan::survey();
+  survey.vulkan = std::move(found.devices);
+  survey.loader = std::move(found.loader);
+  for (DeviceReport& report : survey.vulkan) {
+    if (!self_test || !report.lacks.empty()) continue;
+    report.self_test_run = true;
+    const auto back_end = estimator::open_vulkan(Config{}, report.uuid);
+    const estimator::Verdict verdict = back_end
+                                           ? estimator::self_test(back_end->make_program)
+                                           : estimator::Verdict{false, back_end.error().message};
+    report.self_test_passed = verdict.passed;
+    report.self_test = verdict.text;
+  }
+  survey.auto_choice = "cpu";
+  for (const DeviceReport& report : estimator::real_gpus(survey.vulkan)) {
+    if (report.self_test_run && !report.self_test_passed) continue;
+    survey.auto_choice = report.name;
+    break;
+  }
+#else
+  (void)self_test;
+  survey.loader = "none: built without Vulkan";
+  survey.auto_choice = "cpu";
+#endif
+  return survey;
+}
+
+}  // namespace flowdlo

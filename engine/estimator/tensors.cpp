@@ -1,0 +1,53 @@
+#include "estimator/tensors.hpp"
+
+namespace flowdlo::estimator {
+namespace {
+
+void append(std::vector<float>& values, const Centerline& nodes) {
+  for (const Point3& node : nodes) values.insert(values.end(), {node.x, node.y, node.z});
+}
+
+/// [H/2, W/2, 4] to [4, H/2, W/2].
+std::vector<float> planes(const evidence::MaskField& field) {
+  const std::size_t texels = field.texels.size() / 4;
+  std::vector<float> values(field.texels.size());
+  for (std::size_t i = 0; i < texels; ++i) {
+    for (std::size_t channel = 0; channel < 4; ++channel) {
+      values[channel * texels + i] = field.texels[i * 4 + channel];
+    }
+  }
+  return values;
+}
+
+}  // namespace
+
+Tensors collect_tensors(std::span<const float> source, const path::Path& path,
+                        std::span<const prior::Prior> draw_priors,
+                        const flow::Prediction& prediction, const evidence::MaskField& field) {
+  Tensors tensors;
+  tensors.draws = static_cast<int>(prediction.draws.size());
+  tensors.field_width = field.width;
+  tensors.field_height = field.height;
+  for (std::size_t row = 0; row + 4 <= source.size(); row += 4) {
+    tensors.source.insert(tensors.source.end(), {source[row], source[row + 1], source[row + 2]});
+  }
+  for (const Point3& point : prediction.visible.points_cam) {
+    tensors.visible.insert(tensors.visible.end(), {point.x, point.y, point.z});
+  }
+  tensors.visible_valid.assign(prediction.visible.valid.begin(), prediction.visible.valid.end());
+  for (const Eigen::Vector2f& sample : path.points_px) {
+    tensors.path.insert(tensors.path.end(), {sample.x(), sample.y()});
+  }
+  append(tensors.prior, draw_priors.front().nodes);
+  tensors.support.assign(draw_priors.front().support.begin(), draw_priors.front().support.end());
+  for (const prior::Prior& prior : draw_priors) {
+    append(tensors.draw_prior, prior.nodes);
+    tensors.draw_support.insert(tensors.draw_support.end(), prior.support.begin(),
+                                prior.support.end());
+  }
+  for (const Centerline& draw : prediction.draws) append(tensors.prediction, draw);
+  tensors.mask_field = planes(field);
+  return tensors;
+}
+
+}  // namespace flowdlo::estimator

@@ -1,0 +1,22 @@
+// The tensors behind one estimate, gathered for the caller.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "evidence/mask_field.hpp"
+#include "flow/sampler.hpp"
+#include "flowdlo/estimate.hpp"
+#include "path/path.hpp"
+#include "prior/prior.hpp"
+
+namespace flowdlo::estimator {
+
+/// `source` is [D, 64, 4] as the sampler holds it; `draw_priors` has one prior for each draw, the
+/// first being the frame's.
+[[nodiscard]] Tensors collect_tensors(std::span<const float> source, const path::Path& path,
+                                      std::span<const prior::Prior> draw_priors,
+                                      const flow::Prediction& prediction,
+                                      const evidence::MaskField& field);
+
+}  // namespace flowdlo::estimator
