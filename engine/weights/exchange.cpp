@@ -1,0 +1,84 @@
+// Weights to and from .safetensors.
+#include <fmt/format.h>
+
+#include "flowdlo/weights.hpp"
+#include "weights/fdw.hpp"
+#include "weights/file.hpp"
+#include "weights/metadata.hpp"
+#include "weights/safetensors.hpp"
+
+namespace flowdlo {
+namespace {
+
+namespace ws = weights;
+
+constexpr std::array kReadable{ws::DType::kF32, ws::DType::kF16, ws::DType::kBf16};
+
+/// The file's own digest, where it names one, against that of its tensors.
+void check_digest(const std::map<std::string, std::string>& fields, const std::string& got,
+                  std::vector<std::string>& faults) {
+  const auto expected = fields.find("sha256");
+  if (expected == fields.end() || expected->second == got) return;
+  faults.push_back(fmt::format(
+      "tensors: expected SHA-256 {}, got {}; if they were changed on purpose, leave the metadata "
+      "key sha256 out",
+      ws::in_quotes(expected->second), got));
+}
+
+}  // namespace
+
+Result<void> export_safetensors(const std::filesystem::path& weights,
+                                const std::filesystem::path& output) {
+  const auto file = ws::read_fdw(weights);
+  if (!file) return file.error();
+  std::vector<std::string> faults;
+  std::vector<std::vector<std::uint8_t>> encoded;
+  std::vector<ws::StoredTensor> stored;
+  for (std::size_t i = 0; i < file->types.size(); ++i) {
+    const ws::Tensor& tensor = file->weights.tensors[i];
+    encoded.push_back(ws::encode(tensor, file->types[i], faults));
+    const bool half = file->types[i] == ws::StorageType::kF16;
+    ws::StoredTensor view;
+    view.name = tensor.name;
+    view.shape.assign(tensor.shape.begin(), tensor.shape.end());
+    view.dtype = half ? ws::DType::kF16 : ws::DType::kF32;
+    view.bytes = encoded.back();
+    stored.push_back(std::move(view));
+  }
+  if (!faults.empty()) return ws::bad_weights(weights, faults);
+
+  auto fields = ws::to_fields(file->weights.metadata);
+  fields["sha256"] = file->sha256;
+  const std::string header = ws::safetensors_header(fields, stored);
+  const auto* header_bytes = reinterpret_cast<const std::uint8_t*>(header.data());
+  std::vector<std::span<const std::uint8_t>> parts{{header_bytes, header.size()}};
+  parts.insert(parts.end(), encoded.begin(), encoded.end());
+  return ws::write_file(output, parts);
+}
+
+Result<void> import_safetensors(const std::filesystem::path& input,
+                                const std::filesystem::path& weights) {
+  const auto bytes = ws::read_file(input);
+  if (!bytes) return bytes.error();
+  std::vector<std::string> faults;
+  const auto parsed = ws::parse_safetensors(bytes->view(), faults);
+  if (!faults.empty()) return ws::bad_weights(input, faults);
+
+  ws::Weights result;
+  result.metadata = ws::from_fields(parsed.metadata, faults);
+  for (auto& fault : ws::faults(result.metadata)) faults.push_back(std::move(fault));
+  const ws::Variant variant = ws::usable(result.metadata.variant);
+  const auto matched = ws::match(parsed.tensors, variant, kReadable, faults);
+  result.tensors = ws::decode(matched, variant, faults);
+  if (faults.empty()) check_digest(parsed.metadata, ws::digest(matched), faults);
+  if (!faults.empty()) return ws::bad_weights(input, faults);
+
+  std::vector<ws::StorageType> types;
+  for (const ws::StoredTensor* tensor : matched) {
+    const bool half = tensor->dtype == ws::DType::kF16;
+    types.push_back(half ? ws::StorageType::kF16 : ws::StorageType::kF32);
+  }
+  return ws::write_fdw(result, types, weights);
+}
+
+}  // namespace flowdlo

@@ -1,0 +1,23 @@
+// What a weights file holds, for people.
+#include "flowdlo/weights.hpp"
+#include "weights/fdw.hpp"
+#include "weights/metadata.hpp"
+
+namespace flowdlo {
+
+Result<WeightsInfo> inspect_weights(const std::filesystem::path& file) {
+  auto read = weights::read_fdw(file);
+  if (!read) return read.error();
+  WeightsInfo info;
+  info.metadata = weights::to_fields(read->weights.metadata);
+  info.sha256 = read->sha256;
+  for (std::size_t i = 0; i < read->types.size(); ++i) {
+    weights::Tensor& tensor = read->weights.tensors[i];
+    info.parameters += static_cast<std::int64_t>(tensor.values.size());
+    const bool half = read->types[i] == weights::StorageType::kF16;
+    info.tensors.push_back({std::move(tensor.name), std::move(tensor.shape), half ? "f16" : "f32"});
+  }
+  return info;
+}
+
+}  // namespace flowdlo

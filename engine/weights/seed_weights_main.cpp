@@ -1,0 +1,17 @@
+// flowdlo_seed_weights OUT: the weights that the build ships until a trained model has landed.
+#include <cstdio>
+
+#include "weights/weights.hpp"
+
+int main(int argc, char** argv) {
+  constexpr std::uint64_t kSeed = 20260101;
+  if (argc != 2) {
+    std::fputs("usage: flowdlo_seed_weights OUT.fdw\n", stderr);
+    return 2;
+  }
+  const auto weights = flowdlo::weights::seeded(flowdlo::weights::Variant{}, kSeed);
+  const auto saved = flowdlo::weights::save(weights, argv[1]);
+  if (saved) return 0;
+  std::fprintf(stderr, "%s\n", saved.error().message.c_str());
+  return 1;
+}
