@@ -88,16 +88,17 @@ TEST_P(Linear, EqualsThePlainSumInDoublePrecision) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Shapes, Linear,
-                         ::testing::Values(Shape{64, 256, 256, false, false},
-                                           Shape{256, 256, 768, false, false},
-                                           Shape{256, 256, 1024, true, false},
-                                           Shape{192, 1024, 256, false, true},
-                                           Shape{256, 256, 512, false, false}));
+INSTANTIATE_TEST_SUITE_P(
+    Shapes, Linear,
+    ::testing::Values(Shape{64, 256, 256, false, false}, Shape{256, 256, 768, false, false},
+                      Shape{256, 256, 1024, true, false}, Shape{192, 1024, 256, false, true},
+                      Shape{128, 256, 256, true, true}, Shape{256, 256, 512, false, false}));
 
 TEST(Linear, ResidualMayBeTheResultItself) {
-  const Shape shape{128, 256, 256, false, true};
-  EXPECT_EQ(run(shape, 2, true), run(shape, 2, false));
+  for (const bool gelu : {false, true}) {
+    const Shape shape{128, 256, 256, gelu, true};
+    EXPECT_EQ(run(shape, 2, true), run(shape, 2, false));
+  }
 }
 
 TEST(Linear, BitsDoNotDependOnTheNumberOfThreads) {
