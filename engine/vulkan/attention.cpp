@@ -1,0 +1,76 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "vulkan/kernels.hpp"
+#include "vulkan/recorders.hpp"
+
+namespace flowdlo::vulkan {
+namespace {
+
+constexpr int kBlock = 8;         // keys that a subgroup holds at once
+constexpr int kQueries = 2;       // a lane's
+constexpr int kLanesForTwo = 32;  // with more lanes, two queries a lane would span draws
+
+bool sound(Plan& plan, const ops::Attention& op) {
+  const int keys = op.per_draw ? ops::kRowsPerDraw : op.key_value.rows;
+  const bool aligned =
+      op.query_column % 4 == 0 && op.key_column % 4 == 0 && op.value_column % 4 == 0;
+  const bool fits =
+      aligned && op.query.rows % ops::kRowsPerDraw == 0 && keys % kBlock == 0 &&
+      op.query_column + ops::kWidth <= op.query.columns &&
+      std::max(op.key_column, op.value_column) + ops::kWidth <= op.key_value.columns &&
+      op.out.columns == ops::kWidth && op.out.rows == op.query.rows &&
+      (!op.per_draw || op.key_value.rows == op.query.rows);
+  if (!fits) {
+    plan.fault(
+        fmt::format("Attention: expected out as query [64 n, 256], keys in blocks of {}, "
+                    "columns in fours, got query [{}, {}], key_value [{}, {}], out [{}, {}]",
+                    kBlock, op.query.rows, op.query.columns, op.key_value.rows,
+                    op.key_value.columns, op.out.rows, op.out.columns));
+  }
+  if (!op.per_draw && !plan.fits(plan.whole(op.key_value), 16)) {
+    plan.fault(fmt::format("Attention: expected at most {} texels of shared keys, got [{}, {}]",
+                           plan.most_texels(), op.key_value.rows, op.key_value.columns));
+    return false;
+  }
+  return fits;
+}
+
+}  // namespace
+
+void record_attention(Plan& plan, const ops::Attention& op) {
+  if (!sound(plan, op)) return;
+  const int lanes = plan.lanes();
+  const int queries = lanes <= kLanesForTwo ? kQueries : 1;
+  const int columns =
+      op.per_draw ? std::max(op.query.columns, op.key_value.columns) : op.query.columns;
+  for (const Window rows : Plan::windows(op.query.rows, plan.most_texels() / (columns / 4))) {
+    const Range query = plan.rows(op.query, rows);
+    const bool by_draw_valid = op.key_valid && op.per_draw;
+    const AttentionCall call{
+        .query = {query},
+        .key_value = {op.per_draw ? plan.rows(op.key_value, rows) : plan.whole(op.key_value)},
+        .valid = {by_draw_valid ? plan.rows(*op.key_valid, rows)
+                                : (op.key_valid ? plan.whole(*op.key_valid) : query)},
+        .result = {plan.rows(op.out, rows)}};
+    plan.dispatch(
+        call,
+        {.lanes = lanes,
+         .queries = queries,
+         .block = std::min(kBlock, lanes),
+         .keys = op.per_draw ? ops::kRowsPerDraw : op.key_value.rows,
+         .per_draw = op.per_draw ? 1 : 0,
+         .has_valid = op.key_valid ? 1 : 0},
+        {.rows = rows.count,
+         .query_stride = op.query.columns / 4,
+         .query_column = op.query_column / 4,
+         .key_value_stride = op.key_value.columns / 4,
+         .key_column = op.key_column / 4,
+         .value_column = op.value_column / 4},
+        {static_cast<std::uint32_t>((rows.count + lanes * queries - 1) / (lanes * queries)),
+         ops::kHeads});
+  }
+}
+
+}  // namespace flowdlo::vulkan

@@ -1,0 +1,58 @@
+// The Vulkan back end as the other rooms see it: which devices there are, opening one, programs on
+// it.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "flowdlo/devices.hpp"
+#include "flowdlo/result.hpp"
+#include "ops/program.hpp"
+
+namespace flowdlo::vulkan {
+
+class Device;
+
+struct Selection {
+  /// "vulkan": any device, GPUs first (discrete, integrated, virtual, other, CPU). Anything else:
+  /// part of a name, in any case, or a UUID with or without dashes.
+  std::string wanted = "vulkan";
+  bool allow_cpu_driver = true;  ///< false: lavapipe, SwiftShader and the like are passed over
+  bool validation = false;       ///< core and synchronization validation, where the layer is there
+};
+
+struct Survey {
+  std::vector<DeviceReport> devices;  ///< in the loader's order; the self-test fields are empty
+  std::string loader;                 ///< version of the Vulkan loader, or why there is none
+};
+
+/// Every Vulkan device with what it lacks. Never fails: no Vulkan, no devices.
+[[nodiscard]] Survey survey();
+
+/// Opens the best device that fits. Fails with kNoDevice and one sentence a device. Devices are
+/// independent of one another: each has its own instance.
+[[nodiscard]] Result<std::shared_ptr<Device>> open_device(const Selection& selection);
+
+[[nodiscard]] const DeviceReport& report(const Device& device);
+
+/// What the validation layers said since the device was opened, oldest first.
+[[nodiscard]] std::vector<std::string> validation_messages(const Device& device);
+/// Whether the layers are there and watch this device.
+[[nodiscard]] bool validation_active(const Device& device);
+/// Calls of vkQueueSubmit on this device so far, whoever made them.
+[[nodiscard]] std::uint64_t submit_count(const Device& device);
+
+struct ProgramOptions {
+  int timeout_ms = 10000;                ///< a run that takes longer fails with kDeviceLost
+  std::filesystem::path pipeline_cache;  ///< a folder for compiled pipelines; empty: none is kept
+};
+
+/// A program for one device; several may share a device, also across threads. After a run that
+/// timed out or lost the device, every further run fails with the same error.
+[[nodiscard]] std::unique_ptr<ops::Program> create_program(std::shared_ptr<Device> device,
+                                                           const ProgramOptions& options = {});
+
+}  // namespace flowdlo::vulkan

@@ -1,0 +1,78 @@
+#include "vulkan/dense_layer.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cassert>
+
+namespace flowdlo::vulkan {
+namespace {
+
+constexpr int kNarrowInputs = 8;
+constexpr int kHeadOutputs = 4;
+
+Packing packing_of(int out, int in) {
+  if (out == ops::kWidth && in >= 1 && in <= kNarrowInputs) return Packing::kNarrow;
+  if (in == ops::kWidth && out >= 3 && out <= kHeadOutputs) return Packing::kHead;
+  if (out % kPanel == 0 && in % 16 == 0 && in > 0) return Packing::kGemm;
+  return Packing::kNone;
+}
+
+/// [rows, columns] in the corner of [padded_rows, padded_columns].
+std::vector<float> padded(std::span<const float> values, int rows, int columns, int padded_rows,
+                          int padded_columns) {
+  std::vector<float> result(static_cast<std::size_t>(padded_rows) * padded_columns, 0.0F);
+  for (int row = 0; row < rows; ++row) {
+    const auto source = values.subspan(static_cast<std::size_t>(row) * columns, columns);
+    std::copy(source.begin(), source.end(),
+              result.begin() + static_cast<std::ptrdiff_t>(row) * padded_columns);
+  }
+  return result;
+}
+
+}  // namespace
+
+std::vector<float> pack_panels(std::span<const float> weight, int out, int in) {
+  std::vector<float> packed(weight.size());
+  for (int column = 0; column < out; ++column) {
+    for (int k = 0; k < in; ++k) {
+      const std::size_t panel = static_cast<std::size_t>(column / kPanel) * (in / 4) * kPanel;
+      const std::size_t texel = panel + static_cast<std::size_t>(k / 4) * kPanel + column % kPanel;
+      packed[texel * 4 + k % 4] = weight[static_cast<std::size_t>(column) * in + k];
+    }
+  }
+  return packed;
+}
+
+DenseLayer keep_layer(Plan& plan, std::string_view name, int out, int in,
+                      std::span<const float> weight, std::span<const float> bias) {
+  assert(weight.size() == static_cast<std::size_t>(out) * in);
+  assert(bias.size() == static_cast<std::size_t>(out));
+  DenseLayer layer{.packing = packing_of(out, in), .in = in, .out = out, .weight = {}, .bias = {}};
+  const auto keep = [&](int rows, int columns, const std::vector<float>& content) {
+    return plan.tensor(Home::kDevice, name, rows, columns, content);
+  };
+  switch (layer.packing) {
+    case Packing::kGemm:
+      layer.weight = keep(out, in, pack_panels(weight, out, in));
+      layer.bias = keep(1, out, {bias.begin(), bias.end()});
+      break;
+    case Packing::kNarrow:
+      layer.weight = keep(out, kNarrowInputs, padded(weight, out, in, out, kNarrowInputs));
+      layer.bias = keep(1, out, {bias.begin(), bias.end()});
+      break;
+    case Packing::kHead:
+      layer.weight = keep(kHeadOutputs, in, padded(weight, out, in, kHeadOutputs, in));
+      layer.bias = keep(1, kHeadOutputs, padded(bias, 1, out, 1, kHeadOutputs));
+      break;
+    case Packing::kNone:
+      plan.fault(
+          fmt::format("layer \"{}\": expected [256, 1..8], [3..4, 256] or [256 n, 16 m], "
+                      "got [{}, {}]",
+                      name, out, in));
+      break;
+  }
+  return layer;
+}
+
+}  // namespace flowdlo::vulkan

@@ -1,0 +1,193 @@
+#include "vulkan/device.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <system_error>
+#include <thread>
+
+namespace flowdlo::vulkan {
+namespace {
+
+constexpr std::size_t kMostCompilers = 8;  // threads
+
+/// Compiles all specs with a few threads; results stand in the order of `specs`.
+std::vector<Result<Kernel>> compile(const Device& device, const std::vector<KernelSpec>& specs) {
+  std::vector<std::optional<Result<Kernel>>> results(specs.size());
+  std::atomic<std::size_t> next = 0;
+  const auto work = [&] {
+    for (std::size_t i = next++; i < specs.size(); i = next++) {
+      results[i].emplace(Kernel::create(device, specs[i]));
+    }
+  };
+  const std::size_t workers =
+      std::min({specs.size(), kMostCompilers,
+                std::size_t{std::max(1U, std::thread::hardware_concurrency())}});
+  std::vector<std::thread> threads;
+  try {
+    while (threads.size() + 1 < workers) threads.emplace_back(work);
+  } catch (const std::system_error&) {
+    // No more threads to be had: those that run, and this one, do it all.
+  }
+  work();
+  for (std::thread& thread : threads) thread.join();
+
+  std::vector<Result<Kernel>> kernels;
+  for (auto& result : results) kernels.push_back(*std::move(result));
+  return kernels;
+}
+
+std::string_view kind_name(VkObjectType type) {
+  switch (type) {
+    case VK_OBJECT_TYPE_BUFFER:
+      return "vkCreateBuffer";
+    case VK_OBJECT_TYPE_BUFFER_VIEW:
+      return "vkCreateBufferView";
+    case VK_OBJECT_TYPE_COMMAND_POOL:
+      return "vkCreateCommandPool";
+    case VK_OBJECT_TYPE_DESCRIPTOR_POOL:
+      return "vkCreateDescriptorPool";
+    case VK_OBJECT_TYPE_DESCRIPTOR_SET_LAYOUT:
+      return "vkCreateDescriptorSetLayout";
+    case VK_OBJECT_TYPE_FENCE:
+      return "vkCreateFence";
+    case VK_OBJECT_TYPE_PIPELINE_CACHE:
+      return "vkCreatePipelineCache";
+    case VK_OBJECT_TYPE_PIPELINE_LAYOUT:
+      return "vkCreatePipelineLayout";
+    case VK_OBJECT_TYPE_QUERY_POOL:
+      return "vkCreateQueryPool";
+    case VK_OBJECT_TYPE_SHADER_MODULE:
+      return "vkCreateShaderModule";
+    default:
+      return "vkCreate";
+  }
+}
+
+}  // namespace
+
+Error Device::failed(VkResult result, VkObjectType type, std::string_view name) const {
+  return check(result, fmt::format("{}({})", kind_name(type), name)).error();
+}
+
+void Device::name_object(VkObjectType type, std::uint64_t object, const std::string& name) const {
+  if (instance_->api().vkSetDebugUtilsObjectNameEXT == nullptr) return;
+  const VkDebugUtilsObjectNameInfoEXT info{
+      .sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_OBJECT_NAME_INFO_EXT,
+      .pNext = nullptr,
+      .objectType = type,
+      .objectHandle = object,
+      .pObjectName = name.c_str()};
+  instance_->api().vkSetDebugUtilsObjectNameEXT(handle_, &info);
+}
+
+Result<void> Device::create_device() {
+  const float priority = 1.0F;
+  const VkDeviceQueueCreateInfo queue{.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO,
+                                      .pNext = nullptr,
+                                      .flags = 0,
+                                      .queueFamilyIndex = facts_.queue_family,
+                                      .queueCount = 1,
+                                      .pQueuePriorities = &priority};
+  VkPhysicalDeviceSubgroupSizeControlFeaturesEXT control{
+      .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_SIZE_CONTROL_FEATURES_EXT,
+      .pNext = nullptr,
+      .subgroupSizeControl = VK_TRUE,
+      .computeFullSubgroups = facts_.full_subgroups ? VK_TRUE : VK_FALSE};
+  const char* const extension = VK_EXT_SUBGROUP_SIZE_CONTROL_EXTENSION_NAME;
+  const VkDeviceCreateInfo info{.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO,
+                                .pNext = facts_.fixes_lanes ? &control : nullptr,
+                                .flags = 0,
+                                .queueCreateInfoCount = 1,
+                                .pQueueCreateInfos = &queue,
+                                .enabledLayerCount = 0,
+                                .ppEnabledLayerNames = nullptr,
+                                .enabledExtensionCount = facts_.fixes_lanes ? 1U : 0U,
+                                .ppEnabledExtensionNames = &extension,
+                                .pEnabledFeatures = nullptr};
+  return check(instance_->api().vkCreateDevice(facts_.handle, &info, nullptr, &handle_),
+               "vkCreateDevice");
+}
+
+Result<void> Device::load_functions() {
+#define FLOWDLO_LOAD(function)                                                                    \
+  api_.function =                                                                                 \
+      reinterpret_cast<PFN_##function>(instance_->api().vkGetDeviceProcAddr(handle_, #function)); \
+  if (api_.function == nullptr) {                                                                 \
+    return Error{ErrorCode::kNoDevice,                                                            \
+                 fmt::format("\"{}\": expected " #function ", found none; update its driver",     \
+                             facts_.report.name)};                                                \
+  }
+  FLOWDLO_DEVICE_FUNCTIONS(FLOWDLO_LOAD)
+#undef FLOWDLO_LOAD
+  return {};
+}
+
+Device::~Device() {
+  kernels_.clear();
+  pipeline_cache_ = {};
+  if (handle_ != VK_NULL_HANDLE && api_.vkDestroyDevice != nullptr) {
+    api_.vkDestroyDevice(handle_, nullptr);
+  }
+}
+
+Result<void> Device::submit(VkCommandBuffer commands, VkFence fence) {
+  const VkSubmitInfo info{.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO,
+                          .pNext = nullptr,
+                          .waitSemaphoreCount = 0,
+                          .pWaitSemaphores = nullptr,
+                          .pWaitDstStageMask = nullptr,
+                          .commandBufferCount = 1,
+                          .pCommandBuffers = &commands,
+                          .signalSemaphoreCount = 0,
+                          .pSignalSemaphores = nullptr};
+  const std::lock_guard lock(queue_mutex_);
+  ++submits_;
+  return check(api_.vkQueueSubmit(queue_, 1, &info, fence), "vkQueueSubmit");
+}
+
+Result<std::vector<const Kernel*>> Device::kernels(std::span<const KernelSpec> specs,
+                                                   int* compiled) {
+  const std::lock_guard lock(kernels_mutex_);
+  std::vector<KernelSpec> missing;
+  for (const KernelSpec& spec : specs) {
+    const std::string name = spec.name();
+    const bool listed = std::any_of(missing.begin(), missing.end(),
+                                    [&](const KernelSpec& other) { return other.name() == name; });
+    if (!listed && kernels_.find(name) == kernels_.end()) missing.push_back(spec);
+  }
+  std::vector<Result<Kernel>> made = compile(*this, missing);
+  for (std::size_t i = 0; i < missing.size(); ++i) {
+    if (!made[i]) return made[i].error();
+    kernels_.emplace(missing[i].name(), *std::move(made[i]));
+  }
+  if (compiled != nullptr) *compiled = static_cast<int>(missing.size());
+  std::vector<const Kernel*> kernels;
+  for (const KernelSpec& spec : specs) kernels.push_back(&kernels_.find(spec.name())->second);
+  return kernels;
+}
+
+Result<std::shared_ptr<Device>> Device::open(std::unique_ptr<Instance> instance,
+                                             const PhysicalDevice& physical) {
+  std::shared_ptr<Device> device(new Device(std::move(instance), physical));
+  const auto created = device->create_device();
+  if (!created) return created.error();
+  const auto loaded = device->load_functions();
+  if (!loaded) return loaded.error();
+  device->api_.vkGetDeviceQueue(device->handle_, physical.queue_family, 0, &device->queue_);
+  const VkPipelineCacheCreateInfo info{.sType = VK_STRUCTURE_TYPE_PIPELINE_CACHE_CREATE_INFO,
+                                       .pNext = nullptr,
+                                       .flags = 0,
+                                       .initialDataSize = 0,
+                                       .pInitialData = nullptr};
+  auto cache =
+      device->create(device->api_.vkCreatePipelineCache, device->api_.vkDestroyPipelineCache, info,
+                     VK_OBJECT_TYPE_PIPELINE_CACHE, "kernels");
+  if (!cache) return cache.error();
+  device->pipeline_cache_ = *std::move(cache);
+  return device;
+}
+
+}  // namespace flowdlo::vulkan

@@ -1,0 +1,92 @@
+// Device: one VkDevice with one compute queue, its function table and its kernels.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "flowdlo/result.hpp"
+#include "vulkan/check.hpp"
+#include "vulkan/instance.hpp"
+#include "vulkan/kernel.hpp"
+#include "vulkan/owned.hpp"
+#include "vulkan/physical_device.hpp"
+
+namespace flowdlo::vulkan {
+
+/// Safe to share between threads.
+class Device {
+ public:
+  [[nodiscard]] static Result<std::shared_ptr<Device>> open(std::unique_ptr<Instance> instance,
+                                                            const PhysicalDevice& physical);
+
+  [[nodiscard]] const PhysicalDevice& facts() const { return facts_; }
+  [[nodiscard]] const Instance& instance() const { return *instance_; }
+  [[nodiscard]] const VolkDeviceTable& api() const { return api_; }
+  [[nodiscard]] VkDevice handle() const { return handle_; }
+  [[nodiscard]] VkPipelineCache pipeline_cache() const { return pipeline_cache_.get(); }
+
+  /// The table's one entry that nobody calls directly: counted, and one caller at a time.
+  [[nodiscard]] Result<void> submit(VkCommandBuffer commands, VkFence fence);
+  [[nodiscard]] std::uint64_t submit_count() const { return submits_; }
+
+  /// The kernel of each spec, in order; those not yet known are compiled, several at a time. They
+  /// live as long as the device. `compiled`, where given, receives how many were new.
+  [[nodiscard]] Result<std::vector<const Kernel*>> kernels(std::span<const KernelSpec> specs,
+                                                           int* compiled = nullptr);
+
+  /// vulkan::check with this device's name.
+  [[nodiscard]] Result<void> check(VkResult result, std::string_view operation) const {
+    return vulkan::check(result, operation, facts_.report.name);
+  }
+
+  /// Creates one object, owned and named.
+  template <class Info, class Handle>
+  [[nodiscard]] Result<Owned<Handle>> create(
+      VkResult(VKAPI_PTR* make)(VkDevice, const Info*, const VkAllocationCallbacks*, Handle*),
+      void(VKAPI_PTR* destroy)(VkDevice, Handle, const VkAllocationCallbacks*), const Info& info,
+      VkObjectType type, std::string_view object_name) const {
+    Handle object = VK_NULL_HANDLE;
+    const VkResult result = make(handle_, &info, nullptr, &object);
+    if (result != VK_SUCCESS) return failed(result, type, object_name);
+    name(type, object, object_name);
+    return Owned<Handle>(handle_, object, destroy);
+  }
+
+  template <class Handle>
+  void name(VkObjectType type, Handle object, std::string_view object_name) const {
+    name_object(type, reinterpret_cast<std::uint64_t>(object), std::string(object_name));
+  }
+
+  Device(const Device&) = delete;
+  Device& operator=(const Device&) = delete;
+  ~Device();
+
+ private:
+  Device(std::unique_ptr<Instance> instance, const PhysicalDevice& facts)
+      : instance_(std::move(instance)), facts_(facts) {}
+
+  [[nodiscard]] Result<void> create_device();
+  [[nodiscard]] Result<void> load_functions();
+  [[nodiscard]] Error failed(VkResult result, VkObjectType type, std::string_view name) const;
+  void name_object(VkObjectType type, std::uint64_t object, const std::string& name) const;
+
+  std::unique_ptr<Instance> instance_;
+  PhysicalDevice facts_;
+  VkDevice handle_ = VK_NULL_HANDLE;
+  VolkDeviceTable api_{};
+  VkQueue queue_ = VK_NULL_HANDLE;
+  std::mutex queue_mutex_;
+  std::atomic<std::uint64_t> submits_ = 0;
+  Owned<VkPipelineCache> pipeline_cache_;
+  std::mutex kernels_mutex_;
+  std::map<std::string, Kernel> kernels_;
+};
+
+}  // namespace flowdlo::vulkan

@@ -1,0 +1,131 @@
+#include "vulkan/instance.hpp"
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+
+#include "vulkan/check.hpp"
+
+namespace flowdlo::vulkan {
+namespace {
+
+constexpr const char* kValidationLayer = "VK_LAYER_KHRONOS_validation";
+constexpr std::string_view kNoDeviceYet = "instance";
+
+bool has_validation_layer(const Loader& loader) {
+  const auto enumerate = reinterpret_cast<PFN_vkEnumerateInstanceLayerProperties>(
+      loader.find(VK_NULL_HANDLE, "vkEnumerateInstanceLayerProperties"));
+  std::uint32_t count = 0;
+  if (enumerate == nullptr || enumerate(&count, nullptr) != VK_SUCCESS) return false;
+  std::vector<VkLayerProperties> layers(count);
+  if (enumerate(&count, layers.data()) < VK_SUCCESS) return false;
+  return std::any_of(layers.begin(), layers.end(), [](const VkLayerProperties& layer) {
+    return std::string_view(layer.layerName) == kValidationLayer;
+  });
+}
+
+VKAPI_ATTR VkBool32 VKAPI_CALL on_message(VkDebugUtilsMessageSeverityFlagBitsEXT,
+                                          VkDebugUtilsMessageTypeFlagsEXT,
+                                          const VkDebugUtilsMessengerCallbackDataEXT* data,
+                                          void* log) {
+  static_cast<MessageLog*>(log)->add(data->pMessage != nullptr ? data->pMessage : "");
+  return VK_FALSE;
+}
+
+}  // namespace
+
+Result<void> Instance::load_functions(bool debug) {
+#define FLOWDLO_LOAD(function)                                                         \
+  api_.function = reinterpret_cast<PFN_##function>(loader_->find(handle_, #function)); \
+  if (api_.function == nullptr) {                                                      \
+    return Error{ErrorCode::kNoDevice, "Vulkan loader: expected " #function            \
+                                       ", found none; "                                \
+                                       "update libvulkan1"};                           \
+  }
+  FLOWDLO_INSTANCE_FUNCTIONS(FLOWDLO_LOAD)
+#undef FLOWDLO_LOAD
+  if (!debug) return {};
+  api_.vkCreateDebugUtilsMessengerEXT = reinterpret_cast<PFN_vkCreateDebugUtilsMessengerEXT>(
+      loader_->find(handle_, "vkCreateDebugUtilsMessengerEXT"));
+  api_.vkDestroyDebugUtilsMessengerEXT = reinterpret_cast<PFN_vkDestroyDebugUtilsMessengerEXT>(
+      loader_->find(handle_, "vkDestroyDebugUtilsMessengerEXT"));
+  api_.vkSetDebugUtilsObjectNameEXT = reinterpret_cast<PFN_vkSetDebugUtilsObjectNameEXT>(
+      loader_->find(handle_, "vkSetDebugUtilsObjectNameEXT"));
+  return {};
+}
+
+Result<void> Instance::listen() {
+  if (api_.vkCreateDebugUtilsMessengerEXT == nullptr) return {};
+  const VkDebugUtilsMessengerCreateInfoEXT info{
+      .sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT,
+      .pNext = nullptr,
+      .flags = 0,
+      .messageSeverity = VK_DEBUG_UTILS_MESSAGE_SEVERITY_WARNING_BIT_EXT |
+                         VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT,
+      .messageType = VK_DEBUG_UTILS_MESSAGE_TYPE_VALIDATION_BIT_EXT,
+      .pfnUserCallback = on_message,
+      .pUserData = log_.get()};
+  return check(api_.vkCreateDebugUtilsMessengerEXT(handle_, &info, nullptr, &messenger_),
+               "vkCreateDebugUtilsMessengerEXT", kNoDeviceYet);
+}
+
+Instance::~Instance() {
+  if (messenger_ != VK_NULL_HANDLE) {
+    api_.vkDestroyDebugUtilsMessengerEXT(handle_, messenger_, nullptr);
+  }
+  if (handle_ != VK_NULL_HANDLE && api_.vkDestroyInstance != nullptr) {
+    api_.vkDestroyInstance(handle_, nullptr);
+  }
+}
+
+Result<std::unique_ptr<Instance>> Instance::create(bool validation) {
+  auto loader = Loader::open();
+  if (!loader) return loader.error();
+  std::unique_ptr<Instance> instance(new Instance(*loader));
+
+  const bool layered = validation && has_validation_layer(**loader);
+  const std::array extensions{VK_EXT_DEBUG_UTILS_EXTENSION_NAME,
+                              VK_EXT_VALIDATION_FEATURES_EXTENSION_NAME};
+  const VkValidationFeatureEnableEXT synchronization =
+      VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT;
+  const VkValidationFeaturesEXT features{.sType = VK_STRUCTURE_TYPE_VALIDATION_FEATURES_EXT,
+                                         .pNext = nullptr,
+                                         .enabledValidationFeatureCount = 1,
+                                         .pEnabledValidationFeatures = &synchronization,
+                                         .disabledValidationFeatureCount = 0,
+                                         .pDisabledValidationFeatures = nullptr};
+  const VkApplicationInfo application{.sType = VK_STRUCTURE_TYPE_APPLICATION_INFO,
+                                      .pNext = nullptr,
+                                      .pApplicationName = nullptr,
+                                      .applicationVersion = 0,
+                                      .pEngineName = "flowdlo",
+                                      .engineVersion = 0,
+                                      .apiVersion = VK_API_VERSION_1_1};
+  const VkInstanceCreateInfo info{
+      .sType = VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO,
+      .pNext = layered ? &features : nullptr,
+      .flags = 0,
+      .pApplicationInfo = &application,
+      .enabledLayerCount = layered ? 1U : 0U,
+      .ppEnabledLayerNames = &kValidationLayer,
+      .enabledExtensionCount = layered ? static_cast<std::uint32_t>(extensions.size()) : 0U,
+      .ppEnabledExtensionNames = extensions.data()};
+  const auto create =
+      reinterpret_cast<PFN_vkCreateInstance>((*loader)->find(VK_NULL_HANDLE, "vkCreateInstance"));
+  if (create == nullptr) {
+    return Error{ErrorCode::kNoDevice,
+                 "Vulkan loader: expected vkCreateInstance, found none; update libvulkan1"};
+  }
+  const auto created =
+      check(create(&info, nullptr, &instance->handle_), "vkCreateInstance", kNoDeviceYet);
+  if (!created) return created.error();
+  const auto loaded = instance->load_functions(layered);
+  if (!loaded) return loaded.error();
+  if (layered) {
+    const auto heard = instance->listen();
+    if (!heard) return heard.error();
+  }
+  return instance;
+}
+
+}  // namespace flowdlo::vulkan

@@ -1,0 +1,198 @@
+// Every kernel as a typed argument struct: fields are the shader's bindings, in its order;
+// Constants its specialisation constants, in theirs. What they mean stands in the shader's head.
+#pragma once
+
+#include <array>
+
+#include "../../shaders/push_constants.h"
+#include "vulkan/binding.hpp"
+#include "vulkan/plan.hpp"
+#include "vulkan/shader_code.hpp"
+
+namespace flowdlo::vulkan {
+
+struct GemmCall {
+  struct Constants {
+    int lanes;
+    int depth;
+    int tile_rows;
+    int tile_columns;
+    int unroll;
+    int activation;
+    int has_residual;
+  };
+  using Push = GemmPush;
+  static ShaderCode shader() { return shaders::gemm(); }
+
+  Texels x;
+  Texels weight;
+  Scalars bias;
+  Scalars residual;
+  Writes y;
+  [[nodiscard]] std::array<Binding, 5> bindings() const { return {x, weight, bias, residual, y}; }
+};
+
+struct NarrowCall {
+  struct Constants {
+    int lanes;
+    int x_texels;
+    int inputs;
+    int activation;
+    int addends;
+  };
+  using Push = NarrowPush;
+  static ShaderCode shader() { return shaders::narrow(); }
+
+  Texels x;
+  Texels weight;
+  Texels bias;
+  Texels first;
+  Texels second;
+  Writes y;
+  [[nodiscard]] std::array<Binding, 6> bindings() const {
+    return {x, weight, bias, first, second, y};
+  }
+};
+
+struct LayerNormCall {
+  struct Constants {
+    int lanes;
+  };
+  using Push = NoPush;
+  static ShaderCode shader() { return shaders::layer_norm(); }
+
+  Texels x;
+  Texels gain;
+  Texels shift;
+  Writes y;
+  [[nodiscard]] std::array<Binding, 4> bindings() const { return {x, gain, shift, y}; }
+};
+
+struct AttentionCall {
+  struct Constants {
+    int lanes;
+    int queries;
+    int block;
+    int keys;
+    int per_draw;
+    int has_valid;
+  };
+  using Push = AttentionPush;
+  static ShaderCode shader() { return shaders::attention(); }
+
+  Texels query;
+  Texels key_value;
+  Texels valid;
+  Writes result;
+  [[nodiscard]] std::array<Binding, 4> bindings() const {
+    return {query, key_value, valid, result};
+  }
+};
+
+struct FarthestSetupCall {
+  struct Constants {
+    int lanes;
+    int share;
+  };
+  using Push = FarthestPush;
+  static ShaderCode shader() { return shaders::farthest_setup(); }
+
+  Reads cloud;
+  Texels params;
+  Writes visible;
+  Writes groups;
+  [[nodiscard]] std::array<Binding, 4> bindings() const { return {cloud, params, visible, groups}; }
+};
+
+struct FarthestPointsCall {
+  struct Constants {
+    int lanes;
+    int share;
+    int first_pass;
+    int cloud_is_texels;
+  };
+  using Push = FarthestPush;
+  static ShaderCode shader() { return shaders::farthest_points(); }
+
+  Texels cloud_texels;
+  Reads cloud;
+  Texels params;
+  Texels previous;
+  Scalars nearest_texels;
+  Updates nearest;
+  Writes farthest;
+  Writes visible;
+  [[nodiscard]] std::array<Binding, 8> bindings() const {
+    return {cloud_texels, cloud, params, previous, nearest_texels, nearest, farthest, visible};
+  }
+};
+
+struct FrameNormalizationCall {
+  struct Constants {
+    int lanes;
+  };
+  using Push = NoPush;
+  static ShaderCode shader() { return shaders::frame_normalization(); }
+
+  Texels points;
+  Writes norm;
+  [[nodiscard]] std::array<Binding, 2> bindings() const { return {points, norm}; }
+};
+
+struct NormalizeCall {
+  struct Constants {
+    int lanes;
+    int inverse_form;
+  };
+  using Push = NoPush;
+  static ShaderCode shader() { return shaders::normalize(); }
+
+  Texels points;
+  Texels norm;
+  Writes result;
+  [[nodiscard]] std::array<Binding, 3> bindings() const { return {points, norm, result}; }
+};
+
+struct MaskFeaturesCall {
+  struct Constants {
+    int lanes;
+    int field_is_texels;
+    int depth_is_texels;
+    int has_depth;
+  };
+  using Push = MaskFeaturesPush;
+  static ShaderCode shader() { return shaders::mask_features(); }
+
+  Texels state;
+  Texels norm;
+  Texels params;
+  Texels field_texels;
+  Reads field;
+  Scalars depth_texels;
+  Reads depth;
+  Writes phi;
+  [[nodiscard]] std::array<Binding, 8> bindings() const {
+    return {state, norm, params, field_texels, field, depth_texels, depth, phi};
+  }
+};
+
+struct FlowStepCall {
+  struct Constants {
+    int lanes;
+    int parameterization;
+    int channels;
+  };
+  using Push = FlowStepPush;
+  static ShaderCode shader() { return shaders::flow_step(); }
+
+  Texels hidden;
+  Texels weight;
+  Texels bias;
+  Texels prior;
+  Updates state;
+  [[nodiscard]] std::array<Binding, 5> bindings() const {
+    return {hidden, weight, bias, prior, state};
+  }
+};
+
+}  // namespace flowdlo::vulkan

@@ -1,0 +1,43 @@
+#include "vulkan/loader.hpp"
+
+#include <dlfcn.h>
+#include <fmt/format.h>
+
+namespace flowdlo::vulkan {
+
+std::string version_text(std::uint32_t packed) {
+  return fmt::format("{}.{}.{}", VK_API_VERSION_MAJOR(packed), VK_API_VERSION_MINOR(packed),
+                     VK_API_VERSION_PATCH(packed));
+}
+
+Loader::~Loader() { dlclose(library_); }
+
+Result<std::shared_ptr<const Loader>> Loader::open() {
+  void* library = dlopen("libvulkan.so.1", RTLD_NOW | RTLD_LOCAL);
+  if (library == nullptr) {
+    return Error{ErrorCode::kNoDevice,
+                 "Vulkan loader: expected libvulkan.so.1, found none; install libvulkan1"};
+  }
+  const auto get =
+      reinterpret_cast<PFN_vkGetInstanceProcAddr>(dlsym(library, "vkGetInstanceProcAddr"));
+  if (get == nullptr) {
+    dlclose(library);
+    return Error{
+        ErrorCode::kNoDevice,
+        "Vulkan loader: libvulkan.so.1 has no vkGetInstanceProcAddr; reinstall libvulkan1"};
+  }
+  std::shared_ptr<Loader> loader(new Loader(library, get));
+  const auto version_of = reinterpret_cast<PFN_vkEnumerateInstanceVersion>(
+      loader->find(VK_NULL_HANDLE, "vkEnumerateInstanceVersion"));
+  std::uint32_t version = VK_API_VERSION_1_0;
+  if (version_of != nullptr) version_of(&version);
+  loader->version_ = version_text(version);
+  if (version < VK_API_VERSION_1_1) {
+    return Error{ErrorCode::kNoDevice,
+                 fmt::format("Vulkan loader: expected version 1.1, got {}; update libvulkan1",
+                             loader->version_)};
+  }
+  return std::shared_ptr<const Loader>(std::move(loader));
+}
+
+}  // namespace flowdlo::vulkan

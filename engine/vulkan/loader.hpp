@@ -1,0 +1,40 @@
+// Loader: the system's Vulkan loader, opened at run time; nothing links to it.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "flowdlo/result.hpp"
+#include "vulkan/vulkan_api.hpp"
+
+namespace flowdlo::vulkan {
+
+class Loader {
+ public:
+  /// Fails with kNoDevice where there is no loader, or one older than Vulkan 1.1.
+  [[nodiscard]] static Result<std::shared_ptr<const Loader>> open();
+
+  [[nodiscard]] PFN_vkVoidFunction find(VkInstance instance, const char* name) const {
+    return get_instance_proc_addr_(instance, name);
+  }
+  /// "1.3.239"
+  [[nodiscard]] const std::string& version() const { return version_; }
+
+  Loader(const Loader&) = delete;
+  Loader& operator=(const Loader&) = delete;
+  ~Loader();
+
+ private:
+  Loader(void* library, PFN_vkGetInstanceProcAddr get)
+      : library_(library), get_instance_proc_addr_(get) {}
+
+  void* library_;
+  PFN_vkGetInstanceProcAddr get_instance_proc_addr_;
+  std::string version_;
+};
+
+/// "1.3.239" of a packed version.
+[[nodiscard]] std::string version_text(std::uint32_t packed);
+
+}  // namespace flowdlo::vulkan

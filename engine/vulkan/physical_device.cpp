@@ -1,0 +1,180 @@
+#include "vulkan/physical_device.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+#include <string_view>
+
+namespace flowdlo::vulkan {
+namespace {
+
+constexpr int kFewestLanes = 4;
+constexpr int kMostLanes = 128;
+constexpr std::uint32_t kGpuLanes = 32;  // where a GPU lets us choose
+
+DeviceKind kind_of(VkPhysicalDeviceType type) {
+  switch (type) {
+    case VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU:
+      return DeviceKind::kDiscreteGpu;
+    case VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU:
+      return DeviceKind::kIntegratedGpu;
+    case VK_PHYSICAL_DEVICE_TYPE_VIRTUAL_GPU:
+      return DeviceKind::kVirtualGpu;
+    case VK_PHYSICAL_DEVICE_TYPE_CPU:
+      return DeviceKind::kCpu;
+    default:
+      return DeviceKind::kOther;
+  }
+}
+
+bool has_extension(const InstanceTable& api, VkPhysicalDevice device, std::string_view name) {
+  std::uint32_t count = 0;
+  if (api.vkEnumerateDeviceExtensionProperties(device, nullptr, &count, nullptr) != VK_SUCCESS) {
+    return false;
+  }
+  std::vector<VkExtensionProperties> extensions(count);
+  if (api.vkEnumerateDeviceExtensionProperties(device, nullptr, &count, extensions.data()) <
+      VK_SUCCESS) {
+    return false;
+  }
+  return std::any_of(extensions.begin(), extensions.end(),
+                     [&](const auto& extension) { return name == extension.extensionName; });
+}
+
+/// The first family with compute; one without graphics is preferred, it is never shared with a UI.
+void find_queue(const InstanceTable& api, PhysicalDevice& device) {
+  std::uint32_t count = 0;
+  api.vkGetPhysicalDeviceQueueFamilyProperties(device.handle, &count, nullptr);
+  std::vector<VkQueueFamilyProperties> families(count);
+  api.vkGetPhysicalDeviceQueueFamilyProperties(device.handle, &count, families.data());
+  std::optional<std::uint32_t> found;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    if ((families[i].queueFlags & VK_QUEUE_COMPUTE_BIT) == 0) continue;
+    const bool compute_alone = (families[i].queueFlags & VK_QUEUE_GRAPHICS_BIT) == 0;
+    if (!found || (compute_alone && (families[*found].queueFlags & VK_QUEUE_GRAPHICS_BIT) != 0)) {
+      found = i;
+    }
+  }
+  if (!found) {
+    device.report.lacks.emplace_back("a compute queue");
+    return;
+  }
+  device.queue_family = *found;
+  device.timestamp_bits = families[*found].timestampValidBits;
+}
+
+void choose_lanes(const InstanceTable& api, PhysicalDevice& device,
+                  const VkPhysicalDeviceSubgroupProperties& subgroup) {
+  constexpr VkSubgroupFeatureFlags kNeeded =
+      VK_SUBGROUP_FEATURE_BASIC_BIT | VK_SUBGROUP_FEATURE_SHUFFLE_BIT;
+  if ((subgroup.supportedStages & VK_SHADER_STAGE_COMPUTE_BIT) == 0 ||
+      (subgroup.supportedOperations & kNeeded) != kNeeded) {
+    device.report.lacks.emplace_back("subgroup shuffles in compute shaders");
+  }
+  std::uint32_t lanes = subgroup.subgroupSize;
+  if (has_extension(api, device.handle, VK_EXT_SUBGROUP_SIZE_CONTROL_EXTENSION_NAME)) {
+    VkPhysicalDeviceSubgroupSizeControlPropertiesEXT sizes{};
+    sizes.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_SIZE_CONTROL_PROPERTIES_EXT;
+    VkPhysicalDeviceProperties2 properties{};
+    properties.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2;
+    properties.pNext = &sizes;
+    api.vkGetPhysicalDeviceProperties2(device.handle, &properties);
+    VkPhysicalDeviceSubgroupSizeControlFeaturesEXT control{};
+    control.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_SIZE_CONTROL_FEATURES_EXT;
+    VkPhysicalDeviceFeatures2 features{};
+    features.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2;
+    features.pNext = &control;
+    api.vkGetPhysicalDeviceFeatures2(device.handle, &features);
+    device.fixes_lanes = control.subgroupSizeControl == VK_TRUE &&
+                         (sizes.requiredSubgroupSizeStages & VK_SHADER_STAGE_COMPUTE_BIT) != 0;
+    device.full_subgroups = device.fixes_lanes && control.computeFullSubgroups == VK_TRUE;
+    if (device.fixes_lanes && device.report.kind != DeviceKind::kCpu) {
+      lanes = std::clamp(kGpuLanes, sizes.minSubgroupSize, sizes.maxSubgroupSize);
+    }
+  }
+  device.lanes = static_cast<int>(lanes);
+  device.report.subgroup_size = device.lanes;
+  if (device.lanes < kFewestLanes || device.lanes > kMostLanes) {
+    device.report.lacks.push_back(
+        fmt::format("a subgroup of {} to {} lanes (has {})", kFewestLanes, kMostLanes, lanes));
+  }
+}
+
+void look_for_texel_buffers(const InstanceTable& api, PhysicalDevice& device) {
+  for (const auto& [format, name] : {std::pair{VK_FORMAT_R32G32B32A32_SFLOAT, "RGBA32F"},
+                                     std::pair{VK_FORMAT_R32_SFLOAT, "R32F"}}) {
+    VkFormatProperties properties{};
+    api.vkGetPhysicalDeviceFormatProperties(device.handle, format, &properties);
+    if ((properties.bufferFeatures & VK_FORMAT_FEATURE_UNIFORM_TEXEL_BUFFER_BIT) == 0) {
+      device.report.lacks.push_back(fmt::format("uniform texel buffers of {}", name));
+    }
+  }
+}
+
+std::string hexadecimal(const std::uint8_t (&bytes)[VK_UUID_SIZE]) {
+  std::string text;
+  for (const std::uint8_t byte : bytes) text += fmt::format("{:02x}", byte);
+  return text;
+}
+
+PhysicalDevice describe(const Instance& instance, VkPhysicalDevice handle) {
+  const InstanceTable& api = instance.api();
+  PhysicalDevice device;
+  device.handle = handle;
+  VkPhysicalDeviceProperties basic{};
+  api.vkGetPhysicalDeviceProperties(handle, &basic);
+  device.limits = basic.limits;
+  device.driver_version = basic.driverVersion;
+  device.report.name = basic.deviceName;
+  device.report.kind = kind_of(basic.deviceType);
+  device.report.api_version = version_text(basic.apiVersion);
+  device.report.driver = fmt::format("{:#x}", basic.driverVersion);
+  if (basic.apiVersion < VK_API_VERSION_1_1) {
+    device.report.lacks.push_back(fmt::format("Vulkan 1.1 (has {})", device.report.api_version));
+    return device;
+  }
+
+  VkPhysicalDeviceDriverPropertiesKHR driver{};
+  driver.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES_KHR;
+  VkPhysicalDeviceSubgroupProperties subgroup{};
+  subgroup.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_PROPERTIES;
+  VkPhysicalDeviceIDProperties id{};
+  id.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_ID_PROPERTIES;
+  id.pNext = &subgroup;
+  const bool names_driver = basic.apiVersion >= VK_API_VERSION_1_2 ||
+                            has_extension(api, handle, VK_KHR_DRIVER_PROPERTIES_EXTENSION_NAME);
+  if (names_driver) subgroup.pNext = &driver;
+  VkPhysicalDeviceProperties2 properties{};
+  properties.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2;
+  properties.pNext = &id;
+  api.vkGetPhysicalDeviceProperties2(handle, &properties);
+
+  device.report.uuid = hexadecimal(id.deviceUUID);
+  if (names_driver) {
+    device.report.driver = fmt::format("{} {}", driver.driverName, driver.driverInfo);
+    if (driver.driverID == VK_DRIVER_ID_MESA_LLVMPIPE) device.report.kind = DeviceKind::kCpu;
+  }
+  api.vkGetPhysicalDeviceMemoryProperties(handle, &device.memory);
+  find_queue(api, device);
+  choose_lanes(api, device, subgroup);
+  look_for_texel_buffers(api, device);
+  return device;
+}
+
+}  // namespace
+
+std::vector<PhysicalDevice> physical_devices(const Instance& instance) {
+  const InstanceTable& api = instance.api();
+  std::uint32_t count = 0;
+  if (api.vkEnumeratePhysicalDevices(instance.handle(), &count, nullptr) != VK_SUCCESS) return {};
+  std::vector<VkPhysicalDevice> handles(count);
+  if (api.vkEnumeratePhysicalDevices(instance.handle(), &count, handles.data()) < VK_SUCCESS) {
+    return {};
+  }
+  std::vector<PhysicalDevice> devices;
+  for (std::uint32_t i = 0; i < count; ++i) devices.push_back(describe(instance, handles[i]));
+  return devices;
+}
+
+}  // namespace flowdlo::vulkan

@@ -1,0 +1,30 @@
+// PhysicalDevice: what a device is, what it can do, and what FlowDLO misses on it.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "flowdlo/devices.hpp"
+#include "vulkan/instance.hpp"
+#include "vulkan/vulkan_api.hpp"
+
+namespace flowdlo::vulkan {
+
+struct PhysicalDevice {
+  VkPhysicalDevice handle = VK_NULL_HANDLE;
+  DeviceReport report;  ///< `lacks` is empty where the device is usable
+  VkPhysicalDeviceLimits limits{};
+  VkPhysicalDeviceMemoryProperties memory{};
+  std::uint32_t driver_version = 0;
+  std::uint32_t queue_family = 0;    ///< has compute
+  std::uint32_t timestamp_bits = 0;  ///< 0: no timestamps
+  int lanes = 0;                     ///< subgroup size in use, 4 to 128
+  bool fixes_lanes = false;          ///< by VK_EXT_subgroup_size_control
+  bool full_subgroups = false;       ///< ditto
+};
+
+/// In the loader's order.
+[[nodiscard]] std::vector<PhysicalDevice> physical_devices(const Instance& instance);
+
+}  // namespace flowdlo::vulkan

@@ -1,0 +1,29 @@
+// ShaderCode: the SPIR-V of each shader, embedded at build time. A shader without its file does not
+// link.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+namespace flowdlo::vulkan {
+
+struct ShaderCode {
+  const char* name = nullptr;
+  std::span<const std::uint32_t> words;
+};
+
+namespace shaders {
+
+[[nodiscard]] ShaderCode attention();
+[[nodiscard]] ShaderCode farthest_points();
+[[nodiscard]] ShaderCode farthest_setup();
+[[nodiscard]] ShaderCode flow_step();
+[[nodiscard]] ShaderCode frame_normalization();
+[[nodiscard]] ShaderCode gemm();
+[[nodiscard]] ShaderCode layer_norm();
+[[nodiscard]] ShaderCode mask_features();
+[[nodiscard]] ShaderCode narrow();
+[[nodiscard]] ShaderCode normalize();
+
+}  // namespace shaders
+}  // namespace flowdlo::vulkan

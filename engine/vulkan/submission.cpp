@@ -1,0 +1,90 @@
+#include "vulkan/submission.hpp"
+
+#include <fmt/format.h>
+
+namespace flowdlo::vulkan {
+namespace {
+
+std::uint64_t nanoseconds(int milliseconds) {
+  return static_cast<std::uint64_t>(milliseconds > 0 ? milliseconds : 0) * 1'000'000U;
+}
+
+}  // namespace
+
+Result<Submission> Submission::create(const Device& device) {
+  const VolkDeviceTable& api = device.api();
+  Submission submission;
+  const VkCommandPoolCreateInfo pool_info{.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO,
+                                          .pNext = nullptr,
+                                          .flags = 0,
+                                          .queueFamilyIndex = device.facts().queue_family};
+  auto pool = device.create(api.vkCreateCommandPool, api.vkDestroyCommandPool, pool_info,
+                            VK_OBJECT_TYPE_COMMAND_POOL, "program");
+  if (!pool) return pool.error();
+  submission.pool_ = *std::move(pool);
+  const VkFenceCreateInfo fence_info{
+      .sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO, .pNext = nullptr, .flags = 0};
+  auto fence = device.create(api.vkCreateFence, api.vkDestroyFence, fence_info,
+                             VK_OBJECT_TYPE_FENCE, "program");
+  if (!fence) return fence.error();
+  submission.fence_ = *std::move(fence);
+  return submission;
+}
+
+Result<VkCommandBuffer> Submission::begin(const Device& device, std::string_view name) {
+  const VkCommandBufferAllocateInfo allocation{
+      .sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO,
+      .pNext = nullptr,
+      .commandPool = pool_.get(),
+      .level = VK_COMMAND_BUFFER_LEVEL_PRIMARY,
+      .commandBufferCount = 1};
+  VkCommandBuffer commands = VK_NULL_HANDLE;
+  const auto allocated =
+      device.check(device.api().vkAllocateCommandBuffers(device.handle(), &allocation, &commands),
+                   fmt::format("vkAllocateCommandBuffers({})", name));
+  if (!allocated) return allocated.error();
+  device.name(VK_OBJECT_TYPE_COMMAND_BUFFER, commands, name);
+  const VkCommandBufferBeginInfo info{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO,
+                                      .pNext = nullptr,
+                                      .flags = 0,
+                                      .pInheritanceInfo = nullptr};
+  const auto begun = device.check(device.api().vkBeginCommandBuffer(commands, &info),
+                                  fmt::format("vkBeginCommandBuffer({})", name));
+  if (!begun) return begun.error();
+  return commands;
+}
+
+Result<void> Submission::end(const Device& device, VkCommandBuffer commands) {
+  return device.check(device.api().vkEndCommandBuffer(commands), "vkEndCommandBuffer");
+}
+
+Result<void> Submission::run(Device& device, VkCommandBuffer commands, int timeout_ms) {
+  const VkFence fence = fence_.get();
+  const auto reset =
+      device.check(device.api().vkResetFences(device.handle(), 1, &fence), "vkResetFences");
+  if (!reset) return reset.error();
+  const auto submitted = device.submit(commands, fence);
+  if (!submitted) return submitted.error();
+  in_flight_ = true;
+  const VkResult waited =
+      device.api().vkWaitForFences(device.handle(), 1, &fence, VK_TRUE, nanoseconds(timeout_ms));
+  if (waited == VK_TIMEOUT) {
+    return Error{ErrorCode::kDeviceLost,
+                 fmt::format("\"{}\": expected a result within {} ms, got none; create anew, "
+                             "perhaps with a longer timeout or on another device",
+                             device.facts().report.name, timeout_ms)};
+  }
+  in_flight_ = false;  // a lost device runs nothing any more
+  return device.check(waited, "vkWaitForFences");
+}
+
+bool Submission::idle(const Device& device, int wait_ms) {
+  if (!in_flight_) return true;
+  const VkFence fence = fence_.get();
+  const VkResult waited =
+      device.api().vkWaitForFences(device.handle(), 1, &fence, VK_TRUE, nanoseconds(wait_ms));
+  in_flight_ = waited == VK_TIMEOUT;
+  return !in_flight_;
+}
+
+}  // namespace flowdlo::vulkan

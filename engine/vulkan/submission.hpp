@@ -1,0 +1,32 @@
+// Submission: command buffers, and running one of them with a deadline.
+#pragma once
+
+#include <string_view>
+
+#include "vulkan/device.hpp"
+
+namespace flowdlo::vulkan {
+
+class Submission {
+ public:
+  [[nodiscard]] static Result<Submission> create(const Device& device);
+
+  Submission() = default;
+
+  /// A new command buffer, begun. It lives as long as the submission.
+  [[nodiscard]] Result<VkCommandBuffer> begin(const Device& device, std::string_view name);
+  [[nodiscard]] static Result<void> end(const Device& device, VkCommandBuffer commands);
+
+  /// Submits and waits. Fails with kDeviceLost after timeout_ms, and then the commands may still
+  /// be running: see idle.
+  [[nodiscard]] Result<void> run(Device& device, VkCommandBuffer commands, int timeout_ms);
+  /// Whether nothing runs any more, waiting at most wait_ms.
+  [[nodiscard]] bool idle(const Device& device, int wait_ms);
+
+ private:
+  Owned<VkCommandPool> pool_;
+  Owned<VkFence> fence_;
+  bool in_flight_ = false;
+};
+
+}  // namespace flowdlo::vulkan

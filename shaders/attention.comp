@@ -1,0 +1,129 @@
+// attention: out[r, 32 h ...] = softmax(q k^T / sqrt(32)) v for head h
+//
+//   thesis    Sec. 3.4: Eq. (3.14), and the encoder's self-attention
+//   in        query      [rows, 4 query_stride]      f32, RGBA texels
+//             key_value  [keys, 4 key_value_stride]  f32, RGBA texels
+//             valid      [keys, 4]                   RGBA texels; column 3 below 0.5: left out
+//   out       result     [rows, 256]  f32
+//   dispatch  (rows / (lanes * queries) rounded up, 8 heads, 1), one subgroup a workgroup
+//   twin      engine/reference/attention.cpp; agrees to 1e-5 of the largest value
+//
+// A lane owns `queries` queries. Keys come in blocks of `block`: each lane fetches one key and its
+// value, shuffles hand them round. The softmax is online, rescaled once a block. Nothing waits.
+#version 450
+#extension GL_GOOGLE_include_directive : require
+#extension GL_KHR_shader_subgroup_basic : require
+#extension GL_KHR_shader_subgroup_shuffle : require
+#extension GL_EXT_control_flow_attributes : require
+#include "push_constants.h"
+
+layout(constant_id = 0) const int lanes = 8;
+layout(constant_id = 1) const int queries = 2;   // a lane; 1 where lanes exceed 32
+layout(constant_id = 2) const int block = 8;     // keys; at most `lanes`
+layout(constant_id = 3) const int keys = 64;     // that a row sees
+layout(constant_id = 4) const int per_draw = 1;  // row r sees the 64 rows of draw r / 64
+layout(constant_id = 5) const int has_valid = 0;
+layout(local_size_x_id = 0) in;
+
+layout(push_constant) uniform Push { AttentionPush push; };
+layout(binding = 0) uniform samplerBuffer query;
+layout(binding = 1) uniform samplerBuffer key_value;
+layout(binding = 2) uniform samplerBuffer valid;
+layout(binding = 3, std430) writeonly buffer Result { vec4 result[]; };
+
+const int kHeadTexels = 8;  // 32 channels
+const int kRowTexels = 64;  // of the result
+const int kDrawRows = 64;
+const float kScale = 0.17677669529663687;  // 1 / sqrt(32)
+const float kLowest = -1e30;
+
+vec4 from(vec4 held, uint holder) {
+  return vec4(subgroupShuffle(held.x, holder), subgroupShuffle(held.y, holder),
+              subgroupShuffle(held.z, holder), subgroupShuffle(held.w, holder));
+}
+
+void main() {
+  int lane = int(gl_LocalInvocationID.x);
+  int head = int(gl_WorkGroupID.y) * kHeadTexels;
+  int first_row = int(gl_WorkGroupID.x) * lanes * queries + lane;
+  // A subgroup of 128 spans two draws: each half takes its keys from lanes of its own half.
+  uint group = lanes > kDrawRows ? uint(lane / kDrawRows * kDrawRows) : 0u;
+
+  vec4 q[queries * kHeadTexels];
+  vec4 total[queries * kHeadTexels];
+  float highest[queries];
+  float weight_sum[queries];
+  [[unroll]] for (int i = 0; i < queries; ++i) {
+    int row = min(first_row + i * lanes, push.rows - 1);
+    [[unroll]] for (int c = 0; c < kHeadTexels; ++c) {
+      int texel = row * push.query_stride + push.query_column + head + c;
+      q[i * kHeadTexels + c] = texelFetch(query, texel) * kScale;
+      total[i * kHeadTexels + c] = vec4(0.0);
+    }
+    highest[i] = kLowest;
+    weight_sum[i] = 0.0;
+  }
+  int first_key = per_draw != 0 ? min(first_row, push.rows - 1) / kDrawRows * kDrawRows : 0;
+
+  for (int b = 0; b < keys; b += block) {
+    int key_row = first_key + b + lane % block;
+    vec4 k[kHeadTexels];
+    vec4 v[kHeadTexels];
+    [[unroll]] for (int c = 0; c < kHeadTexels; ++c) {
+      int texel = key_row * push.key_value_stride + head + c;
+      k[c] = texelFetch(key_value, texel + push.key_column);
+      v[c] = texelFetch(key_value, texel + push.value_column);
+    }
+    float usable = has_valid != 0 ? texelFetch(valid, key_row).w : 1.0;
+
+    float score[queries * block];
+    [[unroll]] for (int j = 0; j < block; ++j) {
+      [[unroll]] for (int i = 0; i < queries; ++i) score[i * block + j] = 0.0;
+      [[unroll]] for (int c = 0; c < kHeadTexels; ++c) {
+        vec4 key = from(k[c], group + uint(j));
+        [[unroll]] for (int i = 0; i < queries; ++i) {
+          score[i * block + j] += dot(q[i * kHeadTexels + c], key);
+        }
+      }
+      if (has_valid != 0) {
+        float seen = subgroupShuffle(usable, group + uint(j));
+        [[unroll]] for (int i = 0; i < queries; ++i) {
+          score[i * block + j] = seen < 0.5 ? kLowest : score[i * block + j];
+        }
+      }
+    }
+
+    [[unroll]] for (int i = 0; i < queries; ++i) {
+      float top = highest[i];
+      [[unroll]] for (int j = 0; j < block; ++j) top = max(top, score[i * block + j]);
+      float shrink = exp(highest[i] - top);
+      highest[i] = top;
+      weight_sum[i] *= shrink;
+      [[unroll]] for (int c = 0; c < kHeadTexels; ++c) total[i * kHeadTexels + c] *= shrink;
+      [[unroll]] for (int j = 0; j < block; ++j) {
+        float weight = exp(score[i * block + j] - top);
+        if (has_valid != 0) weight = score[i * block + j] > 0.5 * kLowest ? weight : 0.0;
+        score[i * block + j] = weight;
+        weight_sum[i] += weight;
+      }
+    }
+    [[unroll]] for (int j = 0; j < block; ++j) {
+      [[unroll]] for (int c = 0; c < kHeadTexels; ++c) {
+        vec4 value = from(v[c], group + uint(j));
+        [[unroll]] for (int i = 0; i < queries; ++i) {
+          total[i * kHeadTexels + c] += score[i * block + j] * value;
+        }
+      }
+    }
+  }
+
+  [[unroll]] for (int i = 0; i < queries; ++i) {
+    int row = first_row + i * lanes;
+    float factor = weight_sum[i] > 0.0 ? 1.0 / weight_sum[i] : 0.0;  // no key left: zero
+    if (lanes <= kDrawRows || row < push.rows) {
+      [[unroll]] for (int c = 0; c < kHeadTexels; ++c) {
+        result[row * kRowTexels + head + c] = total[i * kHeadTexels + c] * factor;
+      }
+    }
+  }
+}

@@ -1,0 +1,53 @@
+// Push constants of every kernel, one struct each; included by C++ and GLSL. Offsets, strides and
+// floats only: what decides a branch or bounds a loop is a specialisation constant, since lavapipe
+// 22.3 compiles a shader anew at every dispatch whose push constants do so.
+#ifndef FLOWDLO_SHADERS_PUSH_CONSTANTS_H
+#define FLOWDLO_SHADERS_PUSH_CONSTANTS_H
+
+#ifdef __cplusplus
+namespace flowdlo::vulkan {
+#endif
+
+struct GemmPush {
+  int columns;       // of y and residual
+  int first_column;  // of this dispatch; a multiple of 256
+};
+
+struct NarrowPush {
+  int first_row;     // of x in this dispatch
+  int first_period;  // Addend::period; Addend::offset less the first bound row of the table
+  int first_offset;
+  int second_period;
+  int second_offset;
+};
+
+struct AttentionPush {
+  int rows;
+  int query_stride;  // in texels of four channels, like all below
+  int query_column;
+  int key_value_stride;
+  int key_column;
+  int value_column;
+};
+
+struct FarthestPush {
+  int capacity;  // rows of the cloud
+  int row;       // of `visible` that receives the pick
+};
+
+struct MaskFeaturesPush {
+  int field_texels;  // rows of the field
+  int depth_pixels;  // rows of the depth image
+};
+
+struct FlowStepPush {
+  float t;
+  float dt;
+  float prior_sd;  // s of spec section 6
+};
+
+#ifdef __cplusplus
+}  // namespace flowdlo::vulkan
+#endif
+
+#endif  // FLOWDLO_SHADERS_PUSH_CONSTANTS_H

@@ -1,0 +1,27 @@
+#include "vulkan/dense_layer.hpp"
+
+#include <gtest/gtest.h>
+
+namespace flowdlo::vulkan {
+namespace {
+
+TEST(PackPanels, PutsFourConsecutiveInputsOfAColumnIntoATexelAndColumnsSideBySide) {
+  constexpr int kOut = 512;
+  constexpr int kIn = 16;
+  std::vector<float> weight(kOut * kIn);
+  for (std::size_t i = 0; i < weight.size(); ++i) weight[i] = static_cast<float>(i);
+
+  const std::vector<float> packed = pack_panels(weight, kOut, kIn);
+
+  const auto at = [&](std::size_t panel, std::size_t k4, std::size_t column, std::size_t k) {
+    return packed[((panel * 4 + k4) * 256 + column) * 4 + k];
+  };
+  EXPECT_EQ(at(0, 0, 0, 0), weight[0]);
+  EXPECT_EQ(at(0, 0, 0, 3), weight[3]);
+  EXPECT_EQ(at(0, 0, 1, 0), weight[16]);
+  EXPECT_EQ(at(0, 2, 5, 1), weight[5 * 16 + 9]);
+  EXPECT_EQ(at(1, 3, 7, 2), weight[(256 + 7) * 16 + 14]);
+}
+
+}  // namespace
+}  // namespace flowdlo::vulkan
