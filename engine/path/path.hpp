@@ -26,7 +26,7 @@ struct Traversals {
 };
 
 struct TraceConfig {
-  int alternatives = 3;     ///< kept beside the best
+  int alternatives = 3;      ///< kept beside the best
   double rope_length_m = 0;  ///< known length; 0: unknown
 };
 

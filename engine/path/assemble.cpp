@@ -1,0 +1,270 @@
+#include "path/assemble.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <opencv2/imgproc.hpp>
+#include <utility>
+
+#include "path/midline.hpp"
+
+namespace flowdlo::path {
+namespace {
+
+using Eigen::Vector2f;
+using Points = std::vector<Vector2f>;
+
+constexpr float kRunOutWidths = 0.2F;   // past the middle of a strand that hides the end
+constexpr float kBulgeLeast = 0.85F;    // the mask reaches this far past it where a tip shows,
+constexpr float kBulgeMost = 1.6F;      // and further where the end runs along that strand
+constexpr float kBesideWidths = 1.35F;  // the mask is at least this wide there,
+constexpr float kBesideLength = 3.0F;   // for this many widths
+constexpr float kShortestAxisPx = 4.0F;
+
+struct Drawn {
+  Points points;
+  std::vector<std::uint8_t> bridged;
+
+  void add(const Vector2f& p, bool gap) {
+    points.push_back(p);
+    bridged.push_back(gap ? 1 : 0);
+  }
+};
+
+// The cubic that leaves `from` along its direction and enters `to` against its own.
+Points cubic(const StrandEnd& from, const StrandEnd& to) {
+  Points points;
+  const float length = (to.point_px - from.point_px).norm();
+  const int steps = static_cast<int>(std::ceil(length));
+  for (int i = 1; i < steps; ++i) {
+    const float t = static_cast<float>(i) / static_cast<float>(steps);
+    const float t2 = t * t;
+    const float t3 = t2 * t;
+    points.push_back((2 * t3 - 3 * t2 + 1) * from.point_px +
+                     (t3 - 2 * t2 + t) * length * from.outward + (3 * t2 - 2 * t3) * to.point_px -
+                     (t3 - t2) * length * to.outward);
+  }
+  return points;
+}
+
+bool inside(const Points& points, const cv::Mat& mask) {
+  return std::all_of(points.begin(), points.end(), [&](const Vector2f& p) {
+    const auto u = static_cast<int>(std::lround(p.x()));
+    const auto v = static_cast<int>(std::lround(p.y()));
+    return u >= 0 && v >= 0 && u < mask.cols && v < mask.rows && mask.at<std::uint8_t>(v, u) != 0;
+  });
+}
+
+// Bridges from node to node inside a crossing, shortest way; empty when they do not connect.
+std::vector<int> bridges_between(const Strands& strands, int from, int to) {
+  std::vector<std::pair<int, int>> came;  // (node, bridge end that led there)
+  std::vector<int> parent;
+  came.emplace_back(from, -1);
+  parent.push_back(-1);
+  for (std::size_t i = 0; i < came.size(); ++i) {
+    if (came[i].first == to) {
+      std::vector<int> way;
+      for (auto at = static_cast<int>(i); parent[at] >= 0; at = parent[at]) {
+        way.push_back(came[at].second);
+      }
+      std::reverse(way.begin(), way.end());
+      return way;
+    }
+    for (int b = 0; b < static_cast<int>(strands.bridges.size()); ++b) {
+      for (int side = 0; side < 2; ++side) {
+        if (strands.bridges[b].node[side] != came[i].first) continue;
+        const int next = strands.bridges[b].node[1 - side];
+        const bool seen = std::any_of(came.begin(), came.end(),
+                                      [&](const auto& entry) { return entry.first == next; });
+        if (seen) continue;
+        came.emplace_back(next, 2 * b + side);
+        parent.push_back(static_cast<int>(i));
+      }
+    }
+  }
+  return {};
+}
+
+// The skeleton's way through a crossing. Where the mask is wider than the rope the strands lie
+// side by side: each keeps to its side, and changes over where it leaves on the other.
+Points along_bridges(const Strands& strands, const cv::Mat& distance, const std::vector<int>& way,
+                     const StrandEnd& from, const StrandEnd& to) {
+  Points middle;
+  for (const int end : way) {
+    Points points = strands.bridges[end / 2].points_px;
+    if (end % 2 == 1) std::reverse(points.begin(), points.end());
+    middle.insert(middle.end(), points.begin(), points.end());
+  }
+  const int count = static_cast<int>(middle.size());
+  const int reach = std::max(1, static_cast<int>(strands.scale_px));
+  const auto normal = [&](int i) {
+    const Vector2f d = middle[std::min(i + reach, count - 1)] - middle[std::max(i - reach, 0)];
+    return d.norm() > 0 ? Vector2f(Vector2f(-d.y(), d.x()).normalized()) : Vector2f(0, 0);
+  };
+  const float enters = normal(0).dot(from.point_px - from.fork_px) >= 0 ? 1.0F : -1.0F;
+  const float leaves = normal(count - 1).dot(to.point_px - to.fork_px) >= 0 ? 1.0F : -1.0F;
+  Points points;
+  const int margin = count > 4 * reach ? reach : 0;  // next to the forks the cubic is smoother
+  for (int i = margin; i < count - margin; ++i) {
+    const float t = static_cast<float>(i) / static_cast<float>(count);
+    const auto u = static_cast<int>(std::lround(middle[i].x()));
+    const auto v = static_cast<int>(std::lround(middle[i].y()));
+    const float wide = width_at(distance.at<float>(v, u)) - strands.width_px;
+    const float aside = 0.5F * std::clamp(wide, 0.0F, strands.width_px);
+    points.push_back(middle[i] + ((1 - t) * enters + t * leaves) * aside * normal(i));
+  }
+  return points;
+}
+
+// True where strands lie beside each other for a while, nowhere on each other.
+bool side_by_side(const Strands& strands, const std::vector<int>& way) {
+  std::size_t length = 0;
+  for (const int end : way) {
+    const Bridge& bridge = strands.bridges[end / 2];
+    if (bridge.narrowest_px < kBesideWidths * strands.width_px) return false;
+    length += bridge.points_px.size();
+  }
+  return static_cast<float>(length) > kBesideLength * strands.scale_px;
+}
+
+// Through a crossing the cubic is the better guess (the skeleton there is pulled to the middle),
+// as long as it stays in the mask; otherwise the skeleton is followed.
+void draw_bond(const Strands& strands, const Region& region, const StrandEnd& from,
+               const StrandEnd& to, Drawn& drawn) {
+  const bool gap = from.tip() || to.tip();
+  std::vector<int> way;
+  if (!gap && from.node != to.node) way = bridges_between(strands, from.node, to.node);
+  Points points = cubic(from, to);
+  if (!way.empty() && (side_by_side(strands, way) || !inside(points, region.mask))) {
+    points = along_bridges(strands, region.distance_px, way, from, to);
+  }
+  for (const Vector2f& p : points) drawn.add(p, gap);
+}
+
+// An end at a crossing touches the other strand, or lies on it, or hardly shows behind it. Straight
+// on to that strand's middle is never far off; where the mask bulges beyond, the tip shows.
+Points run_out(const StrandEnd& end, const cv::Mat& mask, float width_px) {
+  Points points;
+  const float to_middle = (end.node_px - end.point_px).norm();
+  const auto most = static_cast<int>(to_middle + kBulgeMost * width_px);
+  for (int step = 1; step <= most; ++step) {
+    const Vector2f p = end.point_px + static_cast<float>(step) * end.outward;
+    if (!inside({p}, mask)) break;
+    points.push_back(p);
+  }
+  const float beyond = static_cast<float>(points.size()) - to_middle;
+  const bool bulge = beyond > kBulgeLeast * width_px && static_cast<int>(points.size()) < most;
+  const auto plain = static_cast<std::size_t>(to_middle + kRunOutWidths * width_px);
+  if (!bulge && points.size() > plain) points.resize(plain);
+  return points;
+}
+
+// About one pixel apart; the ends stay, points nearer than a tenth of a pixel are dropped.
+Drawn resampled(const Drawn& drawn) {
+  Drawn result;
+  if (drawn.points.empty()) return result;
+  double walked = 0;
+  double total = 0;
+  for (std::size_t i = 1; i < drawn.points.size(); ++i) {
+    total += (drawn.points[i] - drawn.points[i - 1]).norm();
+  }
+  const int steps = std::max(1, static_cast<int>(std::lround(total)));
+  const double step = total / steps;
+  result.add(drawn.points.front(), drawn.bridged.front() != 0);
+  int next = 1;
+  for (std::size_t i = 1; i < drawn.points.size() && next < steps; ++i) {
+    const Vector2f a = drawn.points[i - 1];
+    const Vector2f d = drawn.points[i] - a;
+    const double length = d.norm();
+    while (next < steps && walked + length >= next * step) {
+      const double t = length > 0 ? (next * step - walked) / length : 0;
+      result.add(a + static_cast<float>(t) * d, drawn.bridged[i] != 0);
+      ++next;
+    }
+    walked += length;
+  }
+  if (total > 0.1) result.add(drawn.points.back(), drawn.bridged.back() != 0);
+  return result;
+}
+
+Path to_image(const Drawn& drawn, const Region& region, const Frame& frame) {
+  Path path;
+  for (std::size_t i = 0; i < drawn.points.size(); ++i) {
+    Vector2f p = drawn.points[i];
+    p.x() = std::clamp(p.x() + static_cast<float>(region.offset_px.x), 0.0F,
+                       static_cast<float>(frame.width - 1));
+    p.y() = std::clamp(p.y() + static_cast<float>(region.offset_px.y), 0.0F,
+                       static_cast<float>(frame.height - 1));
+    if (!p.allFinite()) continue;
+    if (!path.points_px.empty() && path.points_px.back() == p) continue;
+    path.points_px.push_back(p);
+    path.bridged.push_back(drawn.bridged[i]);
+  }
+  return path;
+}
+
+}  // namespace
+
+Path assemble(const Traversal& traversal, const Strands& strands, const Region& region,
+              const Frame& frame) {
+  Drawn drawn;
+  const StrandEnd& first = strands.end(traversal.enters.front());
+  const StrandEnd& last = strands.end(traversal.enters.back() ^ 1);
+  if (!first.tip()) {
+    const Points out = run_out(first, region.mask, strands.width_px);
+    for (auto it = out.rbegin(); it != out.rend(); ++it) drawn.add(*it, false);
+  }
+  for (std::size_t i = 0; i < traversal.enters.size(); ++i) {
+    const int enter = traversal.enters[i];
+    if (i > 0) {
+      draw_bond(strands, region, strands.end(traversal.enters[i - 1] ^ 1), strands.end(enter),
+                drawn);
+    }
+    Points points = strands.list[enter / 2].points_px;
+    if (enter % 2 == 1) std::reverse(points.begin(), points.end());
+    for (const Vector2f& p : points) drawn.add(p, false);
+  }
+  if (!last.tip()) {
+    for (const Vector2f& p : run_out(last, region.mask, strands.width_px)) drawn.add(p, false);
+  }
+  drawn = resampled(drawn);
+  const int half = std::clamp(static_cast<int>(std::lround(0.2F * strands.width_px)), 1, 5);
+  drawn.points = smoothed(std::move(drawn.points), half);
+  Path path = to_image(resampled(drawn), region, frame);
+  path.score = -static_cast<double>(traversal.cost);
+  return path;
+}
+
+Path long_axis(const Region& region, const Frame& frame) {
+  cv::Mat labels;
+  cv::Mat stats;
+  cv::Mat centroids;
+  const int count = cv::connectedComponentsWithStats(region.mask, labels, stats, centroids, 8);
+  int largest = 0;
+  for (int i = 1; i < count; ++i) {
+    const int area = stats.at<int>(i, cv::CC_STAT_AREA);
+    if (largest == 0 || area > stats.at<int>(largest, cv::CC_STAT_AREA)) largest = i;
+  }
+  if (largest == 0) return {};
+  const cv::Moments m = cv::moments(labels == largest, true);
+  const double tilt = 0.5 * std::atan2(2 * m.mu11, m.mu20 - m.mu02);
+  const Vector2f axis{static_cast<float>(std::cos(tilt)), static_cast<float>(std::sin(tilt))};
+  const Vector2f middle{static_cast<float>(m.m10 / m.m00), static_cast<float>(m.m01 / m.m00)};
+  float low = std::numeric_limits<float>::max();
+  float high = std::numeric_limits<float>::lowest();
+  for (int v = 0; v < labels.rows; ++v) {
+    for (int u = 0; u < labels.cols; ++u) {
+      if (labels.at<int>(v, u) != largest) continue;
+      const float along = axis.dot(Vector2f(static_cast<float>(u), static_cast<float>(v)) - middle);
+      low = std::min(low, along);
+      high = std::max(high, along);
+    }
+  }
+  if (high - low < kShortestAxisPx) return {};
+  Drawn drawn;
+  drawn.add(middle + low * axis, false);
+  drawn.add(middle + high * axis, false);
+  return to_image(resampled(drawn), region, frame);
+}
+
+}  // namespace flowdlo::path

@@ -1,0 +1,222 @@
+#include "path/bonds.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace flowdlo::path {
+namespace {
+
+using Eigen::Vector2f;
+
+constexpr std::size_t kBondsAnEnd = 8;
+constexpr std::size_t kMostTips = 96;
+constexpr std::size_t kMostAtCrossing = 64;
+constexpr float kMostBending = 20.0F;
+constexpr float kChangeSides = 4.0F;
+constexpr float kKeepSides = 1.0F;
+constexpr float kLongWidths = 6.0F;     // bridges from this length on,
+constexpr float kCurved = 0.6F;         // or that turn by this angle (rad)
+constexpr float kKnownWidths = 3.0F;    // strands shorter than this are trusted less,
+constexpr float kLeastTrust = 0.35F;    // down to this
+constexpr float kGapBending = 0.4F;     // a hidden stretch may bend
+constexpr float kGapStart = 0.5F;       // a gap costs this,
+constexpr float kGapWidths = 6.0F;      // and one more for each six widths of it
+constexpr float kGapAtCrossing = 1.5F;  // more, where one side is no tip
+constexpr float kMostGapCost = 16.0F;
+constexpr float kDepthWeight = 1.5F;
+constexpr float kMostDepthCost = 5.0F;
+constexpr float kDepthNoise_m = 0.002F;
+constexpr float kDepthNoise = 0.18F;     // metres of depth a metre through a crossing
+constexpr float kGapDepthNoise = 0.3F;   // and across a gap
+constexpr float kBackgroundCost = 2.5F;  // where the sensor looks through the gap
+constexpr float kBackground_m = 0.03F;   // behind the rope by more than this
+
+float angle(const Vector2f& from, const Vector2f& to) {
+  return std::atan2(from.x() * to.y() - from.y() * to.x(), from.dot(to));
+}
+
+// Bending energy of the cubic between two ends, times its length: free of units. For small
+// angles a and b to the chord it is 4 (a^2 + a b + b^2).
+float bending(const StrandEnd& from, const StrandEnd& to, float scale_px) {
+  const Vector2f chord = to.point_px - from.point_px;
+  const float length = chord.norm();
+  const float turn = angle(from.outward, -to.outward);
+  if (length < 0.5F * scale_px) return std::min(kMostBending, turn * turn);
+  const float a = angle(chord, from.outward);
+  const float b = angle(chord, -to.outward);
+  return std::min(kMostBending, 4 * (a * a + a * b + b * b));
+}
+
+// How badly the depths on both sides fit one smooth strand; tends to a limit, for sensors lie.
+float depth_misfit(const StrandEnd& from, const StrandEnd& to, float width_px, float fx, bool gap) {
+  if (from.depth_m <= 0 || to.depth_m <= 0 || fx <= 0) return 0;
+  const float length_px = (to.point_px - from.point_px).norm();
+  const float metres_per_px = 0.5F * (from.depth_m + to.depth_m) / fx;
+  const float expected = 0.5F * length_px * (from.slope_per_px - to.slope_per_px);
+  const float off = std::abs(to.depth_m - from.depth_m - expected);
+  const float per_length = gap ? kGapDepthNoise : kDepthNoise;
+  const float noise = kDepthNoise_m + (0.5F * width_px + per_length * length_px) * metres_per_px;
+  const float ratio = off / noise;
+  return kMostDepthCost * (1 - std::exp(-kDepthWeight * ratio * ratio / kMostDepthCost));
+}
+
+// What it takes to pass along a bridge. On a long or curved one the bend of the bridge itself is
+// free: both strands follow it. Strands that lie beside each other all along, nowhere on each
+// other, do not change sides; those that do lie on each other rather do.
+float passing(const Strands& strands, const Bridge& bridge, const StrandEnd& from,
+              const StrandEnd& to) {
+  const auto count = static_cast<int>(bridge.points_px.size());
+  const int reach = std::min(count - 1, static_cast<int>(1.5F * strands.scale_px));
+  const bool forwards = bridge.node[0] == from.node;
+  const StrandEnd& front = forwards ? from : to;
+  const StrandEnd& back = forwards ? to : from;
+  const Vector2f& first = bridge.points_px.front();
+  const Vector2f& last = bridge.points_px.back();
+  const Vector2f sets_out = bridge.points_px[reach] - first;
+  const Vector2f arrives = last - bridge.points_px[count - 1 - reach];
+  const float length = static_cast<float>(count) / strands.scale_px;
+
+  float cost = bending(from, to, strands.scale_px);
+  if (length > kLongWidths || std::abs(angle(sets_out, arrives)) > kCurved) {
+    const float a = angle(front.outward, sets_out);
+    const float b = angle(arrives, -back.outward);
+    cost = std::min(cost, a * a + b * b);
+  }
+  const bool left_at_front = angle(sets_out, front.point_px - front.fork_px) > 0;
+  const bool left_at_back = angle(arrives, back.point_px - back.fork_px) > 0;
+  const float wide = bridge.narrowest_px / strands.width_px;
+  const float sure = std::clamp((length - 1.5F) / 1.5F, 0.0F, 1.0F);
+  const float beside = std::clamp((wide - 1.25F) / 0.4F, 0.0F, 1.0F);
+  const float upon = std::clamp((1.25F - wide) / 0.2F, 0.0F, 1.0F);
+  return cost + sure * (left_at_front == left_at_back ? kKeepSides * upon : kChangeSides * beside);
+}
+
+// Share of the gap through which the sensor sees something well behind the rope: no occluder.
+float background_share(const StrandEnd& from, const StrandEnd& to, const Region& region,
+                       const Frame& frame) {
+  if (from.depth_m <= 0 || to.depth_m <= 0) return 0;
+  constexpr int kSamples = 9;
+  int behind = 0;
+  for (int i = 1; i <= kSamples; ++i) {
+    const float t = static_cast<float>(i) / (kSamples + 1);
+    const Vector2f p = (1 - t) * from.point_px + t * to.point_px;
+    const int u = static_cast<int>(std::lround(p.x())) + region.offset_px.x;
+    const int v = static_cast<int>(std::lround(p.y())) + region.offset_px.y;
+    if (u < 0 || v < 0 || u >= frame.width || v >= frame.height) continue;
+    const float z = frame.depth_m[static_cast<std::size_t>(v) * frame.width + u];
+    const float rope = (1 - t) * from.depth_m + t * to.depth_m;
+    if (std::isfinite(z) && z > rope + kBackground_m) ++behind;
+  }
+  return static_cast<float>(behind) / kSamples;
+}
+
+class Builder {
+ public:
+  Builder(const Strands& strands, const Region& region, const Frame& frame)
+      : strands_(strands), region_(region), frame_(frame), bonds_(2 * strands.list.size()) {
+    for (const Bridge& bridge : strands.bridges) {
+      bridges_.try_emplace({bridge.node[0], bridge.node[1]}, &bridge);
+      bridges_.try_emplace({bridge.node[1], bridge.node[0]}, &bridge);
+    }
+  }
+
+  std::vector<std::vector<Bond>> run() {
+    through_crossings();
+    across_gaps();
+    for (auto& list : bonds_) {
+      std::sort(list.begin(), list.end(), [](const Bond& a, const Bond& b) {
+        return a.cost != b.cost ? a.cost < b.cost : a.to < b.to;
+      });
+      if (list.size() > kBondsAnEnd) list.resize(kBondsAnEnd);
+    }
+    return std::move(bonds_);
+  }
+
+ private:
+  void add(int a, int b, float cost, bool gap) {
+    bonds_[a].push_back({b, cost, gap});
+    bonds_[b].push_back({a, cost, gap});
+  }
+
+  void through_crossings() {
+    std::map<int, std::vector<int>> met;  // crossing to the ends there
+    for (int id = 0; id < static_cast<int>(bonds_.size()); ++id) {
+      if (!strands_.end(id).tip()) met[strands_.end(id).crossing].push_back(id);
+    }
+    for (const auto& [crossing, ends] : met) {
+      for (std::size_t i = 0; i < ends.size(); ++i) {
+        const std::size_t last = std::min(ends.size(), i + 1 + kMostAtCrossing);
+        for (std::size_t j = i + 1; j < last; ++j) {
+          const StrandEnd& a = strands_.end(ends[i]);
+          const StrandEnd& b = strands_.end(ends[j]);
+          const auto bridge = a.node == b.node ? bridges_.end() : bridges_.find({a.node, b.node});
+          const float bend = bridge != bridges_.end() ? passing(strands_, *bridge->second, a, b)
+                                                      : bending(a, b, strands_.scale_px);
+          const float trust = std::min(trust_in(ends[i]), trust_in(ends[j]));
+          const float depth = depth_misfit(a, b, strands_.width_px, frame_.intrinsics.fx, false);
+          add(ends[i], ends[j], trust * bend + depth, false);
+        }
+      }
+    }
+  }
+
+  // A stump's direction is hardly known.
+  [[nodiscard]] float trust_in(int end) const {
+    const auto length = static_cast<float>(strands_.list[end / 2].points_px.size());
+    return std::clamp(length / (kKnownWidths * strands_.scale_px), kLeastTrust, 1.0F);
+  }
+
+  void across_gaps() {
+    std::vector<int> tips;
+    std::vector<int> crossed;  // an occluder may begin right behind a crossing
+    for (int id = 0; id < static_cast<int>(bonds_.size()); ++id) {
+      if (strands_.list[id / 2].ring) continue;
+      (strands_.end(id).tip() ? tips : crossed).push_back(id);
+    }
+    keep_longest(tips, kMostTips);
+    keep_longest(crossed, kMostTips);
+    for (std::size_t i = 0; i < tips.size(); ++i) {
+      for (std::size_t j = i + 1; j < tips.size(); ++j) link(tips[i], tips[j], 0);
+      for (const int end : crossed) link(tips[i], end, kGapAtCrossing);
+    }
+  }
+
+  void keep_longest(std::vector<int>& ends, std::size_t most) const {
+    if (ends.size() <= most) return;
+    std::stable_sort(ends.begin(), ends.end(), [&](int a, int b) {
+      return strands_.list[a / 2].covers_px > strands_.list[b / 2].covers_px;
+    });
+    ends.resize(most);
+  }
+
+  void link(int a, int b, float extra) {
+    if (a / 2 == b / 2) return;
+    const float cost = extra + gap_cost(strands_.end(a), strands_.end(b));
+    if (cost < kMostGapCost) add(a, b, cost, true);
+  }
+
+  [[nodiscard]] float gap_cost(const StrandEnd& a, const StrandEnd& b) const {
+    const float widths = (a.point_px - b.point_px).norm() / strands_.scale_px;
+    const float cost =
+        kGapStart + widths / kGapWidths + kGapBending * bending(a, b, strands_.scale_px);
+    if (cost >= kMostGapCost) return cost;
+    return cost + depth_misfit(a, b, strands_.width_px, frame_.intrinsics.fx, true) +
+           kBackgroundCost * background_share(a, b, region_, frame_);
+  }
+
+  const Strands& strands_;
+  const Region& region_;
+  const Frame& frame_;
+  std::vector<std::vector<Bond>> bonds_;
+  std::map<std::pair<int, int>, const Bridge*> bridges_;  // between two nodes
+};
+
+}  // namespace
+
+std::vector<std::vector<Bond>> make_bonds(const Strands& strands, const Region& region,
+                                          const Frame& frame) {
+  return Builder(strands, region, frame).run();
+}
+
+}  // namespace flowdlo::path

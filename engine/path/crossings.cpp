@@ -1,0 +1,89 @@
+#include "path/crossings.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace flowdlo::path {
+namespace {
+
+using Eigen::Vector2f;
+
+constexpr float kKnotWidths = 1.0F;    // junctions this near are one crossing
+constexpr float kBridgeWidths = 8.0F;  // longest stretch that two strands share
+constexpr float kDoubleWidths = 1.2F;  // a longer one is wider than this
+constexpr float kStemCosine = -0.35F;  // a fork's branches leave its stem forwards
+constexpr float kShortWidths = 2.5F;   // a stem up to this length
+constexpr float kShortCosine = 0.2F;   // may have them leave sideways
+constexpr float kStemReachWidths = 1.5F;
+
+// The direction in which the branch with this end leaves its node.
+Vector2f leaving(const Graph& graph, int end, float reach_px) {
+  const std::vector<Vector2f>& points = graph.segments[end / 2].points_px;
+  const auto last = points.size() - 1;
+  const std::size_t steps = std::min<std::size_t>(static_cast<std::size_t>(reach_px), last);
+  const Vector2f d = end % 2 == 0 ? Vector2f(points[steps] - points[0])
+                                  : Vector2f(points[last - steps] - points[last]);
+  const float norm = d.norm();
+  return norm > 0 ? Vector2f(d / norm) : Vector2f(0, 0);
+}
+
+// True when the other branches at this end's node all leave opposite to the segment: two strands
+// run into one.
+bool stem(const Graph& graph, int end, float reach_px, float most_cosine) {
+  const Node& node = graph.nodes[graph.segments[end / 2].node[end % 2]];
+  if (node.ends.size() != 3) return false;
+  const Vector2f along = leaving(graph, end, reach_px);
+  for (const int other : node.ends) {
+    if (other != end && leaving(graph, other, reach_px).dot(along) > most_cosine) return false;
+  }
+  return true;
+}
+
+float width_of(const Segment& segment, const cv::Mat& distance) {
+  std::vector<float> values;
+  for (const Vector2f& p : segment.points_px) {
+    values.push_back(width_at(distance.at<float>(static_cast<int>(std::lround(p.y())),
+                                                 static_cast<int>(std::lround(p.x())))));
+  }
+  if (values.empty()) return 0;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+// True for a knot of junctions, and where two strands lie on or beside each other.
+bool shared(const Graph& graph, int id, const cv::Mat& distance, float scale_px) {
+  const Segment& segment = graph.segments[id];
+  if (!segment.alive || segment.ring() || segment.node[0] == segment.node[1]) return false;
+  if (graph.nodes[segment.node[0]].ends.size() < 3) return false;
+  if (graph.nodes[segment.node[1]].ends.size() < 3) return false;
+  if (segment.length_px <= kKnotWidths * scale_px) return true;
+  const float reach = kStemReachWidths * scale_px;
+  const float cosine = segment.length_px <= kShortWidths * scale_px ? kShortCosine : kStemCosine;
+  if (!stem(graph, 2 * id, reach, cosine) || !stem(graph, 2 * id + 1, reach, cosine)) {
+    return false;
+  }
+  return segment.length_px <= kBridgeWidths * scale_px ||
+         width_of(segment, distance) >= kDoubleWidths * graph.width_px;
+}
+
+}  // namespace
+
+Crossings::Crossings(const Graph& graph, const cv::Mat& distance_px, float scale_px)
+    : crossing_(graph.nodes.size()), inner_(graph.segments.size(), false) {
+  std::iota(crossing_.begin(), crossing_.end(), 0);
+  const auto root = [&](int node) {
+    while (crossing_[node] != node) node = crossing_[node] = crossing_[crossing_[node]];
+    return node;
+  };
+  for (int i = 0; i < static_cast<int>(graph.segments.size()); ++i) {
+    if (!shared(graph, i, distance_px, scale_px)) continue;
+    inner_[i] = true;
+    crossing_[root(graph.segments[i].node[0])] = root(graph.segments[i].node[1]);
+  }
+  for (int node = 0; node < static_cast<int>(crossing_.size()); ++node)
+    crossing_[node] = root(node);
+}
+
+}  // namespace flowdlo::path

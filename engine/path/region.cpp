@@ -1,0 +1,203 @@
+#include "path/region.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+#include <string>
+#include <vector>
+
+namespace flowdlo::path {
+namespace {
+
+constexpr int kBorderPx = 2;
+constexpr int kSpeckAreaPx = 12;            // below this no direction can be told
+constexpr float kSpeckWidths = 0.6F;        // components below this times width^2 are noise
+constexpr float kHoleSpecksWidths = 0.05F;  // holes below this times width^2 are noise
+constexpr float kHighlightWidths = 0.68F;   // filled half-width up to which a hole is a highlight
+constexpr float kHighlightArea = 6.0F;      // and its area in width^2, at most
+
+cv::Rect bounding_box(const Frame& frame) {
+  int top = -1;
+  int bottom = -1;
+  int left = frame.width;
+  int right = -1;
+  for (int v = 0; v < frame.height; ++v) {
+    const std::uint8_t* row = frame.mask.data() + static_cast<std::size_t>(v) * frame.width;
+    const auto lit = [](std::uint8_t value) { return value > 127; };
+    const std::uint8_t* end = row + frame.width;
+    const std::uint8_t* first = std::find_if(row, end, lit);
+    if (first == end) continue;
+    const std::uint8_t* last = end - 1;
+    while (!lit(*last)) --last;
+    if (top < 0) top = v;
+    bottom = v;
+    left = std::min(left, static_cast<int>(first - row));
+    right = std::max(right, static_cast<int>(last - row));
+  }
+  if (top < 0) return {};
+  return {left, top, right - left + 1, bottom - top + 1};
+}
+
+cv::Mat crop(const Frame& frame, const cv::Rect& box) {
+  cv::Mat mask = cv::Mat::zeros(box.height + 2 * kBorderPx, box.width + 2 * kBorderPx, CV_8U);
+  for (int v = 0; v < box.height; ++v) {
+    const std::uint8_t* from =
+        frame.mask.data() + static_cast<std::size_t>(box.y + v) * frame.width + box.x;
+    std::uint8_t* to = mask.ptr<std::uint8_t>(v + kBorderPx) + kBorderPx;
+    for (int u = 0; u < box.width; ++u) to[u] = from[u] > 127 ? 1 : 0;
+  }
+  return mask;
+}
+
+cv::Mat distance_of(const cv::Mat& mask) {
+  cv::Mat distance;
+  cv::distanceTransform(mask, distance, cv::DIST_L2, 5);
+  return distance;
+}
+
+// Median width over ridges of the distance, each weighted by its distance (frayed borders have
+// many ridges, but low ones), and only those not much higher than the low ones: where strands lie
+// beside each other the mask is twice as wide.
+float ridge_width(const cv::Mat& distance) {
+  std::vector<double> weight(512, 0.0);
+  for (int v = 1; v + 1 < distance.rows; ++v) {
+    const float* up = distance.ptr<float>(v - 1);
+    const float* row = distance.ptr<float>(v);
+    const float* down = distance.ptr<float>(v + 1);
+    for (int u = 1; u + 1 < distance.cols; ++u) {
+      const float d = row[u];
+      if (d <= 0) continue;
+      const bool ridge = d >= row[u - 1] && d >= row[u + 1] && d >= up[u] && d >= down[u];
+      if (!ridge) continue;
+      const auto bin = static_cast<std::size_t>(std::lround(d * 2));
+      if (bin >= weight.size()) weight.resize(bin + 1, 0.0);
+      weight[bin] += d;
+    }
+  }
+  const auto quantile = [&](double share, std::size_t bins) {
+    double all = 0;
+    for (std::size_t bin = 0; bin < bins; ++bin) all += weight[bin];
+    double sum = 0;
+    for (std::size_t bin = 0; bin < bins; ++bin) {
+      sum += weight[bin];
+      if (sum >= share * all) return bin;
+    }
+    return bins;
+  };
+  const std::size_t narrow = quantile(0.2, weight.size());
+  const std::size_t usual = quantile(0.5, std::min(weight.size(), narrow * 3 / 2 + 1));
+  return std::max(1.0F, width_at(static_cast<float>(usual) * 0.5F));
+}
+
+// Erases the components below `least_area`; returns the largest one's area, 0 if none is left.
+int erase_specks(cv::Mat& mask, double least_area) {
+  cv::Mat labels;
+  cv::Mat stats;
+  cv::Mat centroids;
+  const int count = cv::connectedComponentsWithStats(mask, labels, stats, centroids, 8, CV_32S);
+  int largest = 0;
+  for (int i = 1; i < count; ++i) largest = std::max(largest, stats.at<int>(i, cv::CC_STAT_AREA));
+  std::vector<std::uint8_t> keep(static_cast<std::size_t>(count), 0);
+  bool all = true;
+  for (int i = 1; i < count; ++i) {
+    const int area = stats.at<int>(i, cv::CC_STAT_AREA);
+    keep[i] = area >= kSpeckAreaPx && (area >= least_area || area == largest) ? 1 : 0;
+    all = all && keep[i] != 0;
+  }
+  if (all) return largest;
+  for (int v = 0; v < mask.rows; ++v) {
+    const int* label = labels.ptr<int>(v);
+    std::uint8_t* row = mask.ptr<std::uint8_t>(v);
+    for (int u = 0; u < mask.cols; ++u) row[u] = keep[label[u]];
+  }
+  return largest >= kSpeckAreaPx ? largest : 0;
+}
+
+// A highlight lies inside one strand: with it filled, the strand is no wider than the rope. A
+// hole between two strands makes the filled mask wider than that and is kept.
+bool fill_highlights(cv::Mat& mask, float width) {
+  cv::Mat labels;
+  cv::Mat stats;
+  cv::Mat centroids;
+  const cv::Mat empty = mask == 0;
+  const int count = cv::connectedComponentsWithStats(empty, labels, stats, centroids, 4, CV_32S);
+  if (count <= 2) return false;
+  const int outside = labels.at<int>(0, 0);
+  const double speck = std::max(3.0, static_cast<double>(kHoleSpecksWidths * width * width));
+  const double most = kHighlightArea * width * width;
+  std::vector<std::uint8_t> fill(static_cast<std::size_t>(count), 0);
+  for (int i = 1; i < count; ++i) {
+    if (i != outside && stats.at<int>(i, cv::CC_STAT_AREA) <= most) fill[i] = 1;
+  }
+  cv::Mat filled = mask.clone();
+  for (int v = 0; v < mask.rows; ++v) {
+    const int* label = labels.ptr<int>(v);
+    std::uint8_t* row = filled.ptr<std::uint8_t>(v);
+    for (int u = 0; u < mask.cols; ++u) row[u] |= fill[label[u]];
+  }
+  const cv::Mat distance = distance_of(filled);
+  std::vector<float> depth(static_cast<std::size_t>(count), 0.0F);
+  for (int v = 0; v < mask.rows; ++v) {
+    const int* label = labels.ptr<int>(v);
+    const float* row = distance.ptr<float>(v);
+    for (int u = 0; u < mask.cols; ++u) {
+      if (fill[label[u]] != 0) depth[label[u]] = std::max(depth[label[u]], row[u]);
+    }
+  }
+  bool any = false;
+  for (int i = 1; i < count; ++i) {
+    if (fill[i] == 0) continue;
+    const bool tiny = stats.at<int>(i, cv::CC_STAT_AREA) <= speck;
+    fill[i] = tiny || depth[i] <= kHighlightWidths * width ? 1 : 0;
+    any = any || fill[i] != 0;
+  }
+  if (!any) return false;
+  for (int v = 0; v < mask.rows; ++v) {
+    const int* label = labels.ptr<int>(v);
+    std::uint8_t* row = mask.ptr<std::uint8_t>(v);
+    for (int u = 0; u < mask.cols; ++u) row[u] |= fill[label[u]];
+  }
+  return true;
+}
+
+}  // namespace
+
+Region smoothed(const Region& region, int size_px) {
+  Region result = region;
+  cv::Mat share;
+  region.mask.convertTo(share, CV_8U, 255.0);
+  cv::boxFilter(share, share, CV_8U, {size_px, size_px}, {-1, -1}, true, cv::BORDER_CONSTANT);
+  result.mask = cv::Mat(share > 127) / 255;
+  if (erase_specks(result.mask, kSpeckWidths * region.width_px * region.width_px) == 0) {
+    return region;
+  }
+  fill_highlights(result.mask, region.width_px);
+  result.distance_px = distance_of(result.mask);
+  return result;
+}
+
+Result<Region> clean(const Frame& frame) {
+  const cv::Rect box = bounding_box(frame);
+  if (box.empty()) {
+    return Error{
+        ErrorCode::kNoPath,
+        "path: expected a rope in the mask, got no pixel above 127; check the segmentation"};
+  }
+  Region region;
+  region.offset_px = {box.x - kBorderPx, box.y - kBorderPx};
+  region.mask = crop(frame, box);
+  if (erase_specks(region.mask, 0) == 0) {
+    return Error{ErrorCode::kNoPath, "path: expected a stroke, got only specks of fewer than " +
+                                         std::to_string(kSpeckAreaPx) +
+                                         " pixels; check the segmentation"};
+  }
+  region.distance_px = distance_of(region.mask);
+  region.width_px = ridge_width(region.distance_px);
+  erase_specks(region.mask, kSpeckWidths * region.width_px * region.width_px);
+  fill_highlights(region.mask, region.width_px);
+  region.distance_px = distance_of(region.mask);
+  region.width_px = ridge_width(region.distance_px);
+  return region;
+}
+
+}  // namespace flowdlo::path

@@ -1,0 +1,30 @@
+// Region: the part of the mask worth thinning. Specks are gone and highlights are filled; holes
+// that tell a loop's direction stay.
+#pragma once
+
+#include <opencv2/core.hpp>
+
+#include "flowdlo/frame.hpp"
+#include "flowdlo/result.hpp"
+
+namespace flowdlo::path {
+
+struct Region {
+  cv::Point offset_px;  ///< image position of the crop's (0, 0)
+  cv::Mat mask;         ///< [h, w] u8, 0 or 1, with at least two empty pixels on every side
+  cv::Mat distance_px;  ///< [h, w] f32, distance to the nearest empty pixel
+  float width_px = 0;   ///< the rope's width, a first guess
+};
+
+/// The rope's width where the distance to the nearest empty pixel is `distance_px`: 2 d - 1 for
+/// odd widths, 2 d for even ones; between the two here.
+[[nodiscard]] inline float width_at(float distance_px) { return 2.0F * distance_px - 0.5F; }
+
+/// Crops and cleans the mask. Fails with kNoPath when it is empty or holds specks only.
+[[nodiscard]] Result<Region> clean(const Frame& frame);
+
+/// `region` after a majority filter over squares of `size_px` (odd), for frayed borders and noise;
+/// unchanged when nothing would be left of it.
+[[nodiscard]] Region smoothed(const Region& region, int size_px);
+
+}  // namespace flowdlo::path

@@ -1,0 +1,23 @@
+// Search: the cheapest ways through all strands, end to end. A traversal pays for its bonds, for
+// ends that are no tips, and for the length it leaves uncovered.
+#pragma once
+
+#include <vector>
+
+#include "path/bonds.hpp"
+#include "path/strands.hpp"
+
+namespace flowdlo::path {
+
+struct Traversal {
+  std::vector<int> enters;  ///< the end by which each strand is entered, in order
+  float cost = 0;
+};
+
+/// At most `count` distinct traversals, cheapest first; a traversal and its reverse are one.
+/// Exact (best first with a bound that never overestimates) unless the mask has so many crossings
+/// that the work would not be bounded; a beam search answers then. Deterministic.
+[[nodiscard]] std::vector<Traversal> search(const Strands& strands,
+                                            const std::vector<std::vector<Bond>>& bonds, int count);
+
+}  // namespace flowdlo::path

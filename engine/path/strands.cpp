@@ -1,0 +1,205 @@
+#include "path/strands.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include "path/crossings.hpp"
+#include "path/midline.hpp"
+
+namespace flowdlo::path {
+namespace {
+
+using Eigen::Vector2f;
+using Points = std::vector<Vector2f>;
+
+constexpr float kLeastScalePx = 4.0F;
+constexpr float kFullShare = 0.85F;   // of the usual half width: a tip begins below
+constexpr float kTipWidths = 5.0F;    // the stretch that tells what is usual
+constexpr float kDepthWidths = 3.0F;  // length over which a depth is fitted
+constexpr int kDepthSamples = 16;
+constexpr float kSlopeWidths = 2.0F;  // a slope over this length counts half
+constexpr float kMaxSlope = 1.5F;     // metres of depth a metre sideways
+
+float at(const cv::Mat& image, const Vector2f& p) {
+  const int u = std::clamp(static_cast<int>(std::lround(p.x())), 0, image.cols - 1);
+  const int v = std::clamp(static_cast<int>(std::lround(p.y())), 0, image.rows - 1);
+  return image.at<float>(v, u);
+}
+
+// How many points at side 0 the crossing distorts: there the mask is wider than the rope.
+int distorted(const Points& points, const cv::Mat& distance, float scale_px, float width_px) {
+  const int count = static_cast<int>(points.size());
+  const int most = static_cast<int>(std::min(0.4F * static_cast<float>(count), 3.0F * scale_px));
+  const float calm = 0.5F * 1.15F * width_px + 0.75F;
+  for (int i = 0; i < most; ++i) {
+    if ((points[i] - points[0]).norm() < 0.5F * scale_px) continue;
+    if (at(distance, points[i]) <= calm) return i;
+  }
+  return most;
+}
+
+float median_of(std::vector<float>& values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+// Cuts what thinning leaves skewed at a tip (half a width; all of the corner where an occluder cut
+// the rope aslant), then follows the direction to the mask's edge.
+void extend_tip(Points& points, const Region& region, float width_px, float scale_px) {
+  std::vector<float> distances;
+  const auto near = std::min(points.size(), static_cast<std::size_t>(kTipWidths * scale_px));
+  for (std::size_t i = 0; i < near; ++i) distances.push_back(at(region.distance_px, points[i]));
+  const float full = kFullShare * median_of(distances);
+  const auto most = std::min(points.size() / 3, static_cast<std::size_t>(2.5F * width_px));
+  std::size_t cut = 0;
+  while (cut < most && ((points[cut] - points[0]).norm() < 0.5F * width_px ||
+                        at(region.distance_px, points[cut]) < full)) {
+    ++cut;
+  }
+  points.erase(points.begin(), points.begin() + static_cast<std::ptrdiff_t>(cut));
+  const Vector2f out = direction_at_front(points, scale_px);
+  const Vector2f start = points.front();
+  Points added;
+  const int reach = static_cast<int>(3.0F * width_px + 4.0F);
+  for (int step = 1; step <= reach; ++step) {
+    const Vector2f p = start + out * static_cast<float>(step);
+    if (at(region.distance_px, p) <= 0) break;
+    added.push_back(p);
+  }
+  points.insert(points.begin(), added.rbegin(), added.rend());
+}
+
+// Median of the valid depths of the mask in the five pixels around `p`; 0 without any.
+float depth_at(const Vector2f& p, const Region& region, const Frame& frame) {
+  std::vector<float> values;
+  for (const auto& [du, dv] : {std::pair{0, 0}, {1, 0}, {-1, 0}, {0, 1}, {0, -1}}) {
+    const int u = static_cast<int>(std::lround(p.x())) + du;
+    const int v = static_cast<int>(std::lround(p.y())) + dv;
+    if (u < 0 || v < 0 || u >= region.mask.cols || v >= region.mask.rows) continue;
+    if (region.mask.at<std::uint8_t>(v, u) == 0) continue;
+    const int image_u = u + region.offset_px.x;
+    const int image_v = v + region.offset_px.y;
+    if (image_u < 0 || image_v < 0 || image_u >= frame.width || image_v >= frame.height) continue;
+    const float z = frame.depth_m[static_cast<std::size_t>(image_v) * frame.width + image_u];
+    if (std::isfinite(z) && z > 1e-6F) values.push_back(z);
+  }
+  return values.empty() ? 0 : median_of(values);
+}
+
+// Depth at the front of `points` and its slope: the median of slopes between samples, and the
+// median of what they foretell (Theil and Sen). Next to a crossing the other strand bleeds into
+// the depth: nothing is taken there while enough is left.
+void measure_depth(const Points& points, const Region& region, const Frame& frame, float scale_px,
+                   StrandEnd& end) {
+  const int count = static_cast<int>(points.size());
+  const int skipped = end.tip() ? std::min(static_cast<int>(0.7F * scale_px), count / 4)
+                                : std::min(static_cast<int>(scale_px), count / 2);
+  const int window = static_cast<int>(std::max(kDepthWidths * scale_px, 12.0F));
+  const int last = std::min(count, skipped + window);
+  const int step = std::max(1, (last - skipped) / kDepthSamples);
+  std::vector<std::pair<float, float>> samples;  // how far from the front, depth
+  for (int i = skipped; i < last; i += step) {
+    const float z = depth_at(points[i], region, frame);
+    if (z > 0) samples.emplace_back(static_cast<float>(i), z);
+  }
+  if (samples.size() < 3) return;
+  // Depths come in steps: only samples far from each other tell a slope.
+  std::vector<float> values;
+  for (std::size_t i = 0, j = samples.size() / 2; j < samples.size(); ++i, ++j) {
+    values.push_back((samples[i].second - samples[j].second) /
+                     (samples[j].first - samples[i].first));
+  }
+  const float limit = kMaxSlope * samples.front().second / std::max(1.0F, frame.intrinsics.fx);
+  const float span = static_cast<float>(last - skipped);
+  const float trust = span / (span + kSlopeWidths * scale_px);
+  const float slope = trust * std::clamp(median_of(values), -limit, limit);
+  values.clear();
+  for (const auto& [from, z] : samples) values.push_back(z + slope * from);
+  end.slope_per_px = slope;
+  end.depth_m = median_of(values);
+}
+
+Strand make_strand(const Segment& segment, const Graph& graph, const Crossings& crossings,
+                   const Region& region, const Frame& frame, const Strands& sizes) {
+  Strand strand;
+  strand.ring = segment.ring();
+  strand.covers_px = segment.length_px;
+  const int half = std::clamp(static_cast<int>(std::lround(0.3F * sizes.width_px)), 1, 8);
+  Points points = smoothed(segment.points_px, half);
+  recentre(points, region.mask, sizes.width_px);
+  for (int side = 0; side < 2; ++side) {
+    StrandEnd& end = strand.ends[side];
+    end.node = segment.node[side];
+    const bool tip = strand.ring || graph.nodes[end.node].ends.size() == 1;
+    end.crossing = tip ? -1 : crossings.of(end.node);
+    if (!strand.ring) end.node_px = graph.nodes[end.node].position_px;
+    if (!strand.ring && !tip) {
+      const int cut = distorted(points, region.distance_px, sizes.scale_px, sizes.width_px);
+      points.erase(points.begin(), points.begin() + cut);
+      if (graph.nodes[segment.node[1 - side]].ends.size() == 1) {
+        strand.covers_px -= graph.nodes[end.node].distance_px;
+      }
+    } else if (!strand.ring) {
+      extend_tip(points, region, sizes.width_px, sizes.scale_px);
+    }
+    end.point_px = points.front();
+    end.outward = direction_at_front(points, sizes.scale_px);
+    measure_depth(points, region, frame, sizes.scale_px, end);
+    std::reverse(points.begin(), points.end());
+  }
+  strand.covers_px = std::max(0.0F, strand.covers_px);
+  strand.points_px = std::move(points);
+  return strand;
+}
+
+Bridge make_bridge(const Segment& segment, const Region& region, const Strands& sizes) {
+  float least = 2 * sizes.width_px;
+  for (const Vector2f& p : segment.points_px) {
+    least = std::min(least, width_at(at(region.distance_px, p)));
+  }
+  const int half = std::clamp(static_cast<int>(std::lround(0.5F * sizes.width_px)), 1, 8);
+  return {smoothed(segment.points_px, half), segment.node, least};
+}
+
+// The ends that meet at a node lie left and right of their middle.
+void find_forks(Strands& strands) {
+  std::map<int, std::pair<Vector2f, int>> met;  // node to sum and count
+  for (const Strand& strand : strands.list) {
+    for (const StrandEnd& end : strand.ends) {
+      auto& [sum, count] = met.try_emplace(end.node, Vector2f(0, 0), 0).first->second;
+      sum += end.point_px;
+      ++count;
+    }
+  }
+  for (Strand& strand : strands.list) {
+    for (StrandEnd& end : strand.ends) {
+      const auto& [sum, count] = met.at(end.node);
+      end.fork_px = sum / static_cast<float>(count);
+    }
+  }
+}
+
+}  // namespace
+
+Strands make_strands(const Graph& graph, const Region& region, const Frame& frame) {
+  Strands strands;
+  strands.width_px = graph.width_px;
+  strands.scale_px = std::max(kLeastScalePx, graph.width_px);
+  const Crossings crossings(graph, region.distance_px, strands.scale_px);
+  for (int i = 0; i < static_cast<int>(graph.segments.size()); ++i) {
+    const Segment& segment = graph.segments[i];
+    if (!segment.alive || segment.points_px.size() < 2) continue;
+    if (crossings.inner(i)) {
+      strands.bridges.push_back(make_bridge(segment, region, strands));
+    } else {
+      strands.list.push_back(make_strand(segment, graph, crossings, region, frame, strands));
+    }
+  }
+  find_forks(strands);
+  return strands;
+}
+
+}  // namespace flowdlo::path

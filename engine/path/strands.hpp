@@ -1,0 +1,54 @@
+// Strands: the segments between crossings, each cut back to where its direction can be trusted.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <vector>
+
+#include "path/graph.hpp"
+
+namespace flowdlo::path {
+
+/// One end of a strand, outside the zone that a crossing or a tip distorts.
+struct StrandEnd {
+  Eigen::Vector2f point_px{0, 0};
+  Eigen::Vector2f outward{0, 0};  ///< unit tangent, away from the strand
+  float depth_m = 0;              ///< of the visible surface at `point_px`; 0: unknown
+  float slope_per_px = 0;         ///< change of depth along `outward`
+  int crossing = -1;              ///< the crossing it runs into; -1: a tip
+  int node = -1;                  ///< the graph's node there
+  Eigen::Vector2f node_px{0, 0};  ///< and where it is
+  Eigen::Vector2f fork_px{0, 0};  ///< middle of the points of all ends at that node
+
+  [[nodiscard]] bool tip() const { return crossing < 0; }
+};
+
+/// A stretch of one rope between tips and crossings. Its ends are numbered 2 * strand + side.
+struct Strand {
+  std::vector<Eigen::Vector2f> points_px;  ///< smoothed, from side 0 to side 1, crop coordinates
+  std::array<StrandEnd, 2> ends;
+  float covers_px = 0;  ///< length that a path wins by using it
+  bool ring = false;    ///< closed: no tips, and nothing can be linked to it
+};
+
+/// What lies inside crossings: bridges that two strands share.
+struct Bridge {
+  std::vector<Eigen::Vector2f> points_px;
+  std::array<int, 2> node{-1, -1};
+  float narrowest_px = 0;  ///< width of the mask where it is least
+};
+
+struct Strands {
+  std::vector<Strand> list;
+  std::vector<Bridge> bridges;
+  float width_px = 1;  ///< the rope's
+  float scale_px = 1;  ///< the width, but no less than four pixels: what lengths are measured in
+
+  [[nodiscard]] const StrandEnd& end(int id) const { return list[id / 2].ends[id % 2]; }
+};
+
+/// Crossings are formed (two forks with a bridge that both strands share count as one), strands
+/// are trimmed and measured. `frame` gives the depth.
+[[nodiscard]] Strands make_strands(const Graph& graph, const Region& region, const Frame& frame);
+
+}  // namespace flowdlo::path
