@@ -7,6 +7,13 @@
 
 namespace flowdlo {
 
+/// How the path becomes 3D; each model is trained on one kind and its weights file says which.
+enum class PriorChoice {
+  kOfWeights,  ///< what the weights' metadata says
+  kThesis,     ///< Eq. (3.1)-(3.7): on the visible surface
+  kRefined,    ///< on the rope's centerline, uniform in arclength, from every measured pixel
+};
+
 struct Config {
   /// A .fdw file. Empty: `share/flowdlo/flowdlo.fdw` beside the library's installation.
   std::filesystem::path weights;
@@ -19,7 +26,9 @@ struct Config {
   int euler_steps = 10;    ///< K in Eq. (3.26); 1..64
   int draws = 4;           ///< Gaussian sources a frame, Sec. 4.1.3; 1..64
   std::uint64_t seed = 0;  ///< of the sources x_0; same seed and device: the same bits
-  int threads = 0;         ///< of the CPU back end; 0: one for each core
+  PriorChoice prior = PriorChoice::kOfWeights;
+  double rope_length_m = 0;  ///< of the whole rope, where known; 0: unknown. Helps at crossings.
+  int threads = 0;           ///< of the CPU back end; 0: one for each core
 
   /// Largest frame for which memory is set aside. A larger one still works: its first call
   /// allocates again.
