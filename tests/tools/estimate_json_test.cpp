@@ -1,0 +1,84 @@
+#include "estimate_json.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "tools/sample_estimate.hpp"
+
+namespace flowdlo::tools {
+namespace {
+
+using Json = nlohmann::json;
+using testing::HasSubstr;
+
+const Provenance kProvenance{"rope", "cpu", "", 10, 2, 18446744073709551615ULL};
+
+TEST(EstimateJson, HasTheFieldsOfTheContract) {
+  const auto json = Json::parse(estimate_json(test::sample_estimate(), kProvenance));
+  EXPECT_EQ(json["status"], "ok");
+  EXPECT_EQ(json["source"], "prediction");
+  EXPECT_EQ(json["draw"], 1);
+  EXPECT_EQ(json["device"], "cpu");
+  EXPECT_EQ(json["frame"], "rope");
+  EXPECT_EQ(json["seed"].get<std::uint64_t>(), kProvenance.seed);
+  EXPECT_EQ(json["draws"].size(), 2U);
+  EXPECT_EQ(json["draws"][1]["accepted"], true);
+  EXPECT_DOUBLE_EQ(json["draws"][0]["length_ratio"], 2.5);
+  EXPECT_DOUBLE_EQ(json["draws"][0]["max_segment_share"], 0.2);
+  EXPECT_DOUBLE_EQ(json["draws"][0]["mask_agreement"], 0.4);
+  EXPECT_EQ(json["support"].size(), 64U);
+  EXPECT_EQ(json["support"][19], 1);
+  EXPECT_EQ(json["support"][20], 0);
+  EXPECT_EQ(json["sigma_m"].size(), 64U);
+  EXPECT_DOUBLE_EQ(json["sigma_m"][0], 0.002);
+  EXPECT_DOUBLE_EQ(json["confidence"], 0.8);
+  EXPECT_DOUBLE_EQ(json["mask_agreement"], 0.95);
+  EXPECT_DOUBLE_EQ(json["prior_mask_agreement"], 0.9);
+  EXPECT_EQ(json["alternatives"][0]["nodes_m"].size(), 64U);
+  EXPECT_DOUBLE_EQ(json["alternatives"][0]["score"], 0.5);
+  EXPECT_DOUBLE_EQ(json["timings_ms"]["model"], 12.0);
+  EXPECT_DOUBLE_EQ(json["timings_ms"]["total"], 20.0);
+  EXPECT_DOUBLE_EQ(json["device_timings_ms"]["step"], 9.0);
+}
+
+TEST(EstimateJson, PriorHasNoDraw) {
+  auto estimate = test::sample_estimate();
+  estimate.source = Source::kPrior;
+  estimate.draw = -1;
+  const auto json = Json::parse(estimate_json(estimate, kProvenance));
+  EXPECT_EQ(json["source"], "prior");
+  EXPECT_TRUE(json["draw"].is_null());
+  EXPECT_THAT(json["message"], HasSubstr("prior"));
+}
+
+TEST(EstimateJson, NumbersThatAreNotFiniteAreNull) {
+  auto estimate = test::sample_estimate();
+  estimate.draws[0].length_ratio = std::numeric_limits<float>::quiet_NaN();
+  estimate.draws[0].mask_agreement = std::numeric_limits<float>::infinity();
+  estimate.confidence = std::numeric_limits<float>::quiet_NaN();
+  const auto text = estimate_json(estimate, kProvenance);
+  ASSERT_TRUE(Json::accept(text)) << text;
+  const auto json = Json::parse(text);
+  EXPECT_TRUE(json["draws"][0]["length_ratio"].is_null());
+  EXPECT_TRUE(json["draws"][0]["mask_agreement"].is_null());
+  EXPECT_TRUE(json["confidence"].is_null());
+}
+
+TEST(EstimateJson, FailureHasTheCodesNameAndTheSentence) {
+  const auto json =
+      Json::parse(failure_json({ErrorCode::kNoEvidence, "Frame: nothing to see"}, kProvenance));
+  EXPECT_EQ(json["status"], "no_evidence");
+  EXPECT_EQ(json["message"], "Frame: nothing to see");
+  EXPECT_EQ(json["device"], "cpu");
+}
+
+TEST(EstimateJson, BytesThatAreNoTextDoNotBreakIt) {
+  const auto text = failure_json({ErrorCode::kIo, "\xFF\xFE/depth.png: none"}, kProvenance);
+  EXPECT_TRUE(Json::accept(text));
+}
+
+}  // namespace
+}  // namespace flowdlo::tools

@@ -1,0 +1,101 @@
+#include "frame_output.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "flowdlo/frame_folder.hpp"
+#include "frame/centerline_csv.hpp"
+#include "frame/temporary_folder.hpp"
+#include "tensor_files.hpp"
+#include "tools/sample_estimate.hpp"
+
+namespace flowdlo::tools {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+using testing::ElementsAre;
+
+const Provenance kProvenance{"rope", "cpu", "", 10, 2, 0};
+
+/// A frame on disk, loaded, and a folder for its results.
+class FrameOutput : public testing::Test {
+ protected:
+  void SetUp() override {
+    auto loaded = load_frame_folder(test::write_frame(parent_.path()));
+    ASSERT_TRUE(loaded) << loaded.error().message;
+    frame_ = *loaded;
+  }
+
+  [[nodiscard]] Result<void> write(const Tensors* tensors = nullptr) const {
+    return write_estimate(out(), frame_.frame(), test::sample_estimate(), tensors, kProvenance);
+  }
+  [[nodiscard]] fs::path out() const { return parent_.path() / "out" / "rope"; }
+  [[nodiscard]] std::set<std::string> files() const {
+    std::set<std::string> names;
+    for (const auto& entry : fs::directory_iterator(out())) {
+      names.insert(entry.path().filename().string());
+    }
+    return names;
+  }
+
+  test::TemporaryFolder parent_;
+  FrameFolder frame_;
+};
+
+TEST_F(FrameOutput, HoldsTheThreeFilesOfTheContract) {
+  ASSERT_TRUE(write());
+  EXPECT_THAT(files(), ElementsAre("centerline.csv", "estimate.json", "overlay.png"));
+  const auto nodes = frame::parse_centerline(test::read_text(out() / "centerline.csv"), "csv");
+  ASSERT_TRUE(nodes) << nodes.error().message;
+  EXPECT_EQ(*nodes, test::sample_estimate().nodes);
+  EXPECT_EQ(Json::parse(test::read_text(out() / "estimate.json"))["status"], "ok");
+}
+
+TEST_F(FrameOutput, HoldsTheTensorsWhenAskedFor) {
+  Tensors tensors;
+  tensors.visible.resize(256 * 3);
+  tensors.visible_valid.resize(256);
+  tensors.prior.resize(64 * 3);
+  tensors.support.resize(64);
+  ASSERT_TRUE(write(&tensors));
+  EXPECT_EQ(files().size(), 3 + kTensorFileNames.size());
+}
+
+TEST_F(FrameOutput, TensorsOfAnEarlierRunDoNotStay) {
+  fs::create_directories(out());
+  for (const char* name : kTensorFileNames) test::write_text(out() / name, "old");
+  test::write_text(out() / "notes.txt", "mine");
+  ASSERT_TRUE(write());
+  EXPECT_THAT(files(), ElementsAre("centerline.csv", "estimate.json", "notes.txt", "overlay.png"));
+}
+
+TEST_F(FrameOutput, NoCurveStaysBesideAFailedStatus) {
+  ASSERT_TRUE(write());
+  ASSERT_TRUE(write_failure(out(), {ErrorCode::kNoPath, "the mask holds no stroke"}, kProvenance));
+  EXPECT_THAT(files(), ElementsAre("estimate.json"));
+  EXPECT_EQ(Json::parse(test::read_text(out() / "estimate.json"))["status"], "no_path");
+}
+
+TEST_F(FrameOutput, TensorsOfTheWrongShapeWriteNothing) {
+  const Tensors empty;
+  const auto done = write(&empty);
+  ASSERT_FALSE(done);
+  EXPECT_EQ(done.error().code, ErrorCode::kInternal);
+  EXPECT_TRUE(files().empty());
+}
+
+TEST_F(FrameOutput, FileInPlaceOfTheFolderIsAnIoError) {
+  fs::create_directories(out().parent_path());
+  test::write_text(out(), "in the way");
+  const auto done = write();
+  ASSERT_FALSE(done);
+  EXPECT_EQ(done.error().code, ErrorCode::kIo);
+}
+
+}  // namespace
+}  // namespace flowdlo::tools

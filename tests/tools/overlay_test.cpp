@@ -1,0 +1,114 @@
+#include "overlay.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <opencv2/core.hpp>
+#include <vector>
+
+#include "overlay_style.hpp"
+#include "tools/sample_estimate.hpp"
+
+namespace flowdlo::tools {
+namespace {
+
+/// Gray, 640 x 480, with the sample's rope (fx such that it spans columns 80 to 544) masked.
+struct Scene {
+  std::vector<float> depth_m = std::vector<float>(640 * 480, 0.5F);
+  std::vector<std::uint8_t> mask = std::vector<std::uint8_t>(640 * 480, 0);
+  std::vector<std::uint8_t> color_bgr = std::vector<std::uint8_t>(640 * 480 * 3, 128);
+
+  Scene() {
+    for (int v = 235; v < 246; ++v) {
+      for (int u = 80; u < 544; ++u) mask[static_cast<std::size_t>(v) * 640 + u] = 255;
+    }
+  }
+  [[nodiscard]] Frame frame() const {
+    return {640, 480, {800.0F, 800.0F, 320.0F, 240.0F}, depth_m, mask, color_bgr};
+  }
+};
+
+int pixels_near(const cv::Mat& picture, const cv::Scalar& color, const cv::Rect& window) {
+  cv::Mat hits;
+  cv::inRange(picture(window), color - cv::Scalar::all(12), color + cv::Scalar::all(12), hits);
+  return cv::countNonZero(hits);
+}
+
+TEST(Overlay, HasTheSizeOfTheFrame) {
+  const Scene scene;
+  const auto picture = draw_overlay(scene.frame(), test::sample_estimate(), "cpu");
+  EXPECT_EQ(picture.size(), cv::Size(640, 480));
+  EXPECT_EQ(picture.type(), CV_8UC3);
+}
+
+TEST(Overlay, CurveIsColouredBySupport) {
+  const Scene scene;
+  const auto picture = draw_overlay(scene.frame(), test::sample_estimate(), "cpu");
+  // Nodes 20 to 29 are bridged: columns 227 to 293; the others supported.
+  const cv::Rect bridged(235, 230, 50, 20);
+  const cv::Rect supported(320, 230, 150, 20);
+  EXPECT_GT(pixels_near(picture, kBridgedColor, bridged), 50);
+  EXPECT_EQ(pixels_near(picture, kSupportedColor, bridged), 0);
+  EXPECT_GT(pixels_near(picture, kSupportedColor, supported), 150);
+  EXPECT_EQ(pixels_near(picture, kBridgedColor, supported), 0);
+}
+
+TEST(Overlay, EndsAreMarkedBeyondTheTips) {
+  const Scene scene;
+  const auto picture = draw_overlay(scene.frame(), test::sample_estimate(), "cpu");
+  EXPECT_GT(pixels_near(picture, cv::Scalar::all(255), {52, 225, 25, 30}), 60) << "A, white";
+  EXPECT_GT(pixels_near(picture, kRimColor, {548, 225, 25, 30}), 60) << "B, dark";
+}
+
+TEST(Overlay, NearerStrandIsDrawnOverTheOther) {
+  Scene scene;
+  auto estimate = test::sample_estimate();
+  // First half along the row, far; second half across it, near and bridged.
+  for (std::size_t j = 0; j < 64; ++j) {
+    const auto along = static_cast<float>(j % 32) / 31.0F - 0.5F;
+    estimate.nodes[j] =
+        j < 32 ? Point3{0.2F * along, 0.0F, 0.5F} : Point3{0.0F, 0.2F * along, 0.4F};
+    estimate.support[j] = j < 32 ? 1 : 0;
+  }
+  const cv::Rect crossing(319, 239, 3, 3);
+  const auto above = draw_overlay(scene.frame(), estimate, "cpu");
+  EXPECT_EQ(pixels_near(above, kSupportedColor, crossing), 0);
+  for (std::size_t j = 32; j < 64; ++j) estimate.nodes[j].z = 0.6F;
+  const auto below = draw_overlay(scene.frame(), estimate, "cpu");
+  EXPECT_EQ(pixels_near(below, kBridgedColor, crossing), 0);
+}
+
+TEST(Overlay, IsDrawnOnTheMaskWhereThereIsNoColour) {
+  Scene scene;
+  scene.color_bgr.clear();
+  const auto picture = draw_overlay(scene.frame(), test::sample_estimate(), "cpu");
+  EXPECT_EQ(picture.size(), cv::Size(640, 480));
+  EXPECT_GT(pixels_near(picture, kSupportedColor, {320, 230, 150, 20}), 150);
+}
+
+TEST(Overlay, OfASmallFrameIsAWholeMultipleOfIt) {
+  const std::vector<float> depth_m(80 * 60, 0.5F);
+  const std::vector<std::uint8_t> mask(80 * 60, 0);
+  const Frame frame{80, 60, {100.0F, 100.0F, 39.5F, 29.5F}, depth_m, mask, {}};
+  EXPECT_EQ(draw_overlay(frame, test::sample_estimate(), "cpu").size(), cv::Size(480, 360));
+}
+
+TEST(Overlay, OfOneColumnOfPixelsStaysSmall) {
+  const std::vector<float> depth_m(4096, 0.5F);
+  const std::vector<std::uint8_t> mask(4096, 255);
+  const Frame frame{1, 4096, {100.0F, 100.0F, 0.0F, 0.0F}, depth_m, mask, {}};
+  EXPECT_EQ(draw_overlay(frame, test::sample_estimate(), "cpu").size(), cv::Size(1, 4096));
+}
+
+TEST(Overlay, CurvesThatCannotBeDrawnLeaveThePicture) {
+  const Scene scene;
+  auto estimate = test::sample_estimate();
+  estimate.nodes[3].x = std::numeric_limits<float>::quiet_NaN();
+  EXPECT_EQ(draw_overlay(scene.frame(), estimate, "cpu").size(), cv::Size(640, 480));
+  for (auto& node : estimate.nodes) node = {1.0e6F, -1.0e6F, 0.001F};
+  EXPECT_EQ(draw_overlay(scene.frame(), estimate, "cpu").size(), cv::Size(640, 480));
+}
+
+}  // namespace
+}  // namespace flowdlo::tools

@@ -1,0 +1,100 @@
+#include "devices_command.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "flowdlo/devices.hpp"
+
+namespace flowdlo::tools {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+const char* name_of(DeviceKind kind) {
+  switch (kind) {
+    case DeviceKind::kDiscreteGpu:
+      return "discrete GPU";
+    case DeviceKind::kIntegratedGpu:
+      return "integrated GPU";
+    case DeviceKind::kVirtualGpu:
+      return "virtual GPU";
+    case DeviceKind::kCpu:
+      return "CPU driver";
+    case DeviceKind::kOther:
+      return "other";
+  }
+  return "other";
+}
+
+std::string verdict(const DeviceReport& device) {
+  if (!device.self_test_run) return "not run";
+  if (!device.self_test.empty()) return device.self_test;
+  return device.self_test_passed ? "passed" : "failed";
+}
+
+void print_device(const DeviceReport& device) {
+  fmt::print("{}\n", device.name);
+  const auto row = [](const char* field, const std::string& value) {
+    fmt::print("  {:<10} {}\n", field, value);
+  };
+  row("kind", name_of(device.kind));
+  row("driver", device.driver);
+  row("Vulkan", device.api_version);
+  row("UUID", device.uuid);
+  row("subgroup", std::to_string(device.subgroup_size));
+  row("lacks", device.lacks.empty() ? "nothing" : fmt::format("{}", fmt::join(device.lacks, ", ")));
+  row("self-test", verdict(device));
+  fmt::print("\n");
+}
+
+void print_table(const DeviceSurvey& survey) {
+  fmt::print("Vulkan loader: {}\n\n", survey.loader);
+  for (const auto& device : survey.vulkan) print_device(device);
+  if (survey.vulkan.empty()) fmt::print("No Vulkan device.\n\n");
+  fmt::print("cpu\n  {:<10} built in, always there\n\n", "kind");
+  fmt::print("--device auto takes: {}\n", survey.auto_choice);
+}
+
+void print_json(const DeviceSurvey& survey) {
+  Json devices = Json::array();
+  for (const auto& device : survey.vulkan) {
+    devices.push_back({{"name", device.name},
+                       {"kind", name_of(device.kind)},
+                       {"driver", device.driver},
+                       {"api_version", device.api_version},
+                       {"uuid", device.uuid},
+                       {"subgroup_size", device.subgroup_size},
+                       {"lacks", device.lacks},
+                       {"self_test_run", device.self_test_run},
+                       {"self_test_passed", device.self_test_passed},
+                       {"self_test", device.self_test}});
+  }
+  const Json json = {
+      {"loader", survey.loader}, {"vulkan", devices}, {"auto_choice", survey.auto_choice}};
+  fmt::print("{}\n", json.dump(2, ' ', false, Json::error_handler_t::replace));
+}
+
+}  // namespace
+
+void add_devices_command(CLI::App& app) {
+  auto as_json = std::make_shared<bool>(false);
+  auto* command = app.add_subcommand("devices",
+                                     "Vulkan devices, their self-tests, and which "
+                                     "one --device auto takes");
+  command->alias("doctor");
+  command->add_flag("--json", *as_json, "Print JSON");
+  command->callback([as_json] {
+    const auto survey = survey_devices(/*self_test=*/true);
+    if (*as_json) {
+      print_json(survey);
+    } else {
+      print_table(survey);
+    }
+  });
+}
+
+}  // namespace flowdlo::tools

@@ -1,0 +1,153 @@
+#include "estimate_command.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <system_error>
+#include <vector>
+
+#include "flowdlo/estimator.hpp"
+#include "flowdlo/frame_folder.hpp"
+#include "frame_list.hpp"
+#include "frame_output.hpp"
+#include "progress_bar.hpp"
+
+namespace flowdlo::tools {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct EstimateOptions {
+  std::vector<fs::path> frames;
+  fs::path out;
+  Config config;
+  bool tensors = false;
+  bool quiet = false;
+};
+
+void complain(const Error& error) { fmt::print(stderr, "{}\n", error.message); }
+
+Result<void> make_out(const fs::path& out) {
+  std::error_code failure;
+  fs::create_directories(out, failure);
+  if (failure || !fs::is_directory(out, failure)) {
+    return Error{ErrorCode::kIo, fmt::format("--out {}: cannot be made: {}; choose another folder",
+                                             out.string(), failure.message())};
+  }
+  return {};
+}
+
+Provenance provenance_of(const EstimateOptions& options, const FrameEntry& entry,
+                         const Estimator& estimator) {
+  return {entry.name,
+          estimator.device(),
+          options.config.weights.string(),
+          options.config.euler_steps,
+          options.config.draws,
+          options.config.seed};
+}
+
+std::string summary(const Estimate& estimate, const FrameEntry& entry, const fs::path& folder) {
+  return fmt::format("{}: {}, confidence {:.2f}, mask agreement {:.2f}, {:.0f} ms, {}", entry.name,
+                     name_of(estimate.source), estimate.confidence, estimate.mask_agreement,
+                     estimate.timings.total_ms, (folder / "overlay.png").string());
+}
+
+/// What there is to say about one frame, or why there is no estimate on disk.
+Result<std::string> run_frame(const EstimateOptions& options, const FrameEntry& entry,
+                              Estimator& estimator) {
+  const fs::path folder = options.out / entry.name;
+  const auto provenance = provenance_of(options, entry, estimator);
+  const auto fail = [&](const Error& error) -> Error {
+    const auto written = write_failure(folder, error, provenance);
+    if (written) return error;
+    return {error.code, error.message + "\n" + written.error().message};
+  };
+  const auto loaded = load_frame_folder(entry.folder);
+  if (!loaded) return fail(loaded.error());
+  Tensors tensors;
+  const auto estimate = options.tensors ? estimator.estimate(loaded->frame(), tensors)
+                                        : estimator.estimate(loaded->frame());
+  if (!estimate) return fail(estimate.error());
+  const auto written = write_estimate(folder, loaded->frame(), *estimate,
+                                      options.tensors ? &tensors : nullptr, provenance);
+  if (!written) return fail(written.error());
+  return summary(*estimate, entry, folder);
+}
+
+ExitCode run_frames(const EstimateOptions& options, const std::vector<FrameEntry>& frames,
+                    Estimator& estimator) {
+  ProgressBar progress("estimate", static_cast<int>(frames.size()), options.quiet);
+  auto exit_code = ExitCode::kDone;
+  for (const auto& entry : frames) {
+    const auto outcome = run_frame(options, entry, estimator);
+    progress.clear();
+    if (!outcome) {
+      exit_code = ExitCode::kFailed;
+      fmt::print(stderr, "{}: no estimate ({}): {}\n", entry.name, name_of(outcome.error().code),
+                 outcome.error().message);
+    } else if (!options.quiet) {
+      fmt::print("{}\n", *outcome);
+      std::fflush(stdout);
+    }
+    progress.advance();
+  }
+  return exit_code;
+}
+
+ExitCode run(const EstimateOptions& options) {
+  const auto frames = list_frames(options.frames);
+  if (!frames) {
+    complain(frames.error());
+    return ExitCode::kUsage;
+  }
+  if (const auto made = make_out(options.out); !made) {
+    complain(made.error());
+    return ExitCode::kUsage;
+  }
+  auto estimator = Estimator::create(options.config);
+  if (!estimator) {
+    complain(estimator.error());
+    return ExitCode::kUsage;
+  }
+  return run_frames(options, *frames, *estimator);
+}
+
+}  // namespace
+
+void add_estimate_command(CLI::App& app, ExitCode& exit_code) {
+  auto options = std::make_shared<EstimateOptions>();
+  auto* command = app.add_subcommand("estimate", "Frames in, centerlines out");
+  command->add_option("FRAME", options->frames, "Frame folders, or folders of frame folders")
+      ->required();
+  command->add_option("--out", options->out, "Results go to DIR/<frame name>/")
+      ->required()
+      ->type_name("DIR");
+  command->add_option("--weights", options->config.weights, "A .fdw file [the one that ships]")
+      ->type_name("FILE");
+  command
+      ->add_option("--device", options->config.device,
+                   "auto, vulkan, cpu, part of a device's name, or its UUID")
+      ->capture_default_str();
+  command->add_option("--steps", options->config.euler_steps, "Euler steps of the model")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 64));
+  command->add_option("--draws", options->config.draws, "Gaussian sources a frame")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 64));
+  command->add_option("--seed", options->config.seed, "Of the Gaussian sources")
+      ->capture_default_str()
+      ->check(CLI::NonNegativeNumber);
+  command->add_option("--threads", options->config.threads, "Of the CPU back end; 0: every core")
+      ->capture_default_str()
+      ->check(CLI::Range(0, 1024));
+  command->add_flag("--tensors", options->tensors, "Write the model's tensors as .npy as well");
+  command->add_flag("--quiet", options->quiet, "Print errors only");
+  command->callback([options, &exit_code] { exit_code = run(*options); });
+}
+
+}  // namespace flowdlo::tools

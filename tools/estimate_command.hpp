@@ -1,0 +1,13 @@
+// flowdlo estimate: frames in, centerlines out.
+#pragma once
+
+#include <CLI/App.hpp>
+
+#include "exit_code.hpp"
+
+namespace flowdlo::tools {
+
+/// Adds the subcommand to `app`. When it runs, it sets `exit_code`.
+void add_estimate_command(CLI::App& app, ExitCode& exit_code);
+
+}  // namespace flowdlo::tools

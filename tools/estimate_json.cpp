@@ -1,0 +1,119 @@
+#include "estimate_json.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <nlohmann/json.hpp>
+
+#include "flowdlo/version.hpp"
+
+namespace flowdlo::tools {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// Seven digits are all that a float holds; a double would show its rounding.
+Json number(double value) {
+  if (!std::isfinite(value)) return nullptr;
+  return std::strtod(fmt::format("{:.7g}", value).c_str(), nullptr);
+}
+
+Json numbers(const Point3& point) {
+  return Json::array({number(point.x), number(point.y), number(point.z)});
+}
+
+Json header(const char* status, const std::string& message, const Provenance& provenance) {
+  return {{"status", status},
+          {"message", message},
+          {"frame", provenance.frame},
+          {"version", FLOWDLO_VERSION},
+          {"device", provenance.device},
+          {"weights", provenance.weights.empty() ? Json(nullptr) : Json(provenance.weights)},
+          {"steps", provenance.steps},
+          {"seed", provenance.seed}};
+}
+
+std::string sentence(const Estimate& estimate) {
+  const auto supported = std::count(estimate.support.begin(), estimate.support.end(), 1);
+  const std::string origin =
+      estimate.source == Source::kPrediction
+          ? fmt::format("draw {} of the model passed the gate", estimate.draw)
+          : std::string("no draw of the model passed the gate, so this is the prior");
+  return fmt::format(
+      "{}; {:.0f} % of the curve lies on the mask and {} of {} nodes are backed by "
+      "visible points",
+      origin, 100 * estimate.mask_agreement, supported, kNodes);
+}
+
+Json draws_json(const std::vector<DrawReport>& draws) {
+  Json list = Json::array();
+  for (const auto& draw : draws) {
+    list.push_back({{"accepted", draw.accepted},
+                    {"finite", draw.finite},
+                    {"length_ratio", number(draw.length_ratio)},
+                    {"max_segment_share", number(draw.max_segment_share)},
+                    {"mask_agreement", number(draw.mask_agreement)}});
+  }
+  return list;
+}
+
+Json alternatives_json(const std::vector<Alternative>& alternatives) {
+  Json list = Json::array();
+  for (const auto& alternative : alternatives) {
+    Json nodes = Json::array();
+    for (const auto& node : alternative.nodes) nodes.push_back(numbers(node));
+    list.push_back({{"score", number(alternative.score)},
+                    {"mask_agreement", number(alternative.mask_agreement)},
+                    {"nodes_m", std::move(nodes)}});
+  }
+  return list;
+}
+
+Json timings_json(const Timings& timings) {
+  return {{"evidence", number(timings.evidence_ms)}, {"path", number(timings.path_ms)},
+          {"prior", number(timings.prior_ms)},       {"mask_field", number(timings.mask_field_ms)},
+          {"model", number(timings.model_ms)},       {"gate", number(timings.gate_ms)},
+          {"total", number(timings.total_ms)}};
+}
+
+Json device_timings_json(const Timings& timings) {
+  Json stages = Json::object();
+  for (const auto& [stage, milliseconds] : timings.device_ms) stages[stage] = number(milliseconds);
+  return stages;
+}
+
+// Paths and driver names may hold any bytes; JSON may not.
+std::string text_of(const Json& json) {
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace
+
+const char* name_of(Source source) {
+  return source == Source::kPrediction ? "prediction" : "prior";
+}
+
+std::string estimate_json(const Estimate& estimate, const Provenance& provenance) {
+  Json json = header("ok", sentence(estimate), provenance);
+  json["source"] = name_of(estimate.source);
+  json["draw"] = estimate.draw < 0 ? Json(nullptr) : Json(estimate.draw);
+  json["confidence"] = number(estimate.confidence);
+  json["mask_agreement"] = number(estimate.mask_agreement);
+  json["prior_mask_agreement"] = number(estimate.prior_mask_agreement);
+  json["draws"] = draws_json(estimate.draws);
+  json["support"] = estimate.support;
+  json["sigma_m"] = Json::array();
+  for (const float sigma_m : estimate.sigma_m) json["sigma_m"].push_back(number(sigma_m));
+  json["alternatives"] = alternatives_json(estimate.alternatives);
+  json["timings_ms"] = timings_json(estimate.timings);
+  json["device_timings_ms"] = device_timings_json(estimate.timings);
+  return text_of(json);
+}
+
+std::string failure_json(const Error& error, const Provenance& provenance) {
+  return text_of(header(flowdlo::name_of(error.code), error.message, provenance));
+}
+
+}  // namespace flowdlo::tools

@@ -1,0 +1,31 @@
+// estimate.json: everything about one estimate but its nodes, spec section 3.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "flowdlo/estimate.hpp"
+#include "flowdlo/result.hpp"
+
+namespace flowdlo::tools {
+
+/// What the estimate was made of and by.
+struct Provenance {
+  std::string frame;    ///< name
+  std::string device;   ///< "cpu" or the name of the Vulkan device
+  std::string weights;  ///< file; empty: the one that ships
+  int steps = 0;
+  int draws = 0;
+  std::uint64_t seed = 0;
+};
+
+/// "prediction" or "prior".
+[[nodiscard]] const char* name_of(Source source);
+
+/// JSON text with `status` "ok"; numbers that are not finite are null.
+[[nodiscard]] std::string estimate_json(const Estimate& estimate, const Provenance& provenance);
+
+/// JSON text with `status` the code's name and `message` the error's sentence.
+[[nodiscard]] std::string failure_json(const Error& error, const Provenance& provenance);
+
+}  // namespace flowdlo::tools

@@ -1,0 +1,70 @@
+#include "frame_list.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <system_error>
+
+#include "frame/frame_name.hpp"
+
+namespace flowdlo::tools {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool has_camera(const fs::path& folder) {
+  std::error_code ignored;
+  return fs::exists(folder / "camera.json", ignored);
+}
+
+// The frames of a data set, sorted; empty when `folder` is none.
+std::vector<fs::path> frames_of(const fs::path& folder) {
+  std::vector<fs::path> frames;
+  if (has_camera(folder)) return frames;
+  std::error_code failure;
+  for (fs::directory_iterator entry(folder, failure), end; !failure && entry != end;
+       entry.increment(failure)) {
+    if (has_camera(entry->path())) frames.push_back(entry->path());
+  }
+  std::sort(frames.begin(), frames.end());
+  return frames;
+}
+
+std::string repeated_names(const std::vector<FrameEntry>& frames) {
+  std::map<std::string, fs::path> first_of;
+  std::string faults;
+  for (const auto& entry : frames) {
+    const auto [first, is_new] = first_of.emplace(entry.name, entry.folder);
+    if (is_new) continue;
+    if (!faults.empty()) faults += '\n';
+    faults += fmt::format(
+        "estimate: two frames are named \"{}\" and would share an output folder: {} and {}; run "
+        "them with different --out",
+        entry.name, first->second.string(), entry.folder.string());
+  }
+  return faults;
+}
+
+}  // namespace
+
+Result<std::vector<FrameEntry>> list_frames(const std::vector<fs::path>& arguments) {
+  std::vector<FrameEntry> frames;
+  for (const auto& argument : arguments) {
+    auto folders = frames_of(argument);
+    if (folders.empty()) folders.push_back(argument);
+    for (const auto& folder : folders) frames.push_back({folder, frame::frame_name(folder)});
+  }
+  for (const auto& entry : frames) {
+    if (entry.name.empty() || entry.name == "..") {
+      return Error{ErrorCode::kBadInput, fmt::format("estimate: \"{}\" has no name; give the path "
+                                                     "of a frame folder",
+                                                     entry.folder.string())};
+    }
+  }
+  auto faults = repeated_names(frames);
+  if (!faults.empty()) return Error{ErrorCode::kBadInput, std::move(faults)};
+  return frames;
+}
+
+}  // namespace flowdlo::tools

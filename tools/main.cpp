@@ -1,0 +1,35 @@
+// flowdlo: the command line.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <exception>
+
+#include "bench_command.hpp"
+#include "devices_command.hpp"
+#include "estimate_command.hpp"
+#include "exit_code.hpp"
+#include "flowdlo/version.hpp"
+#include "weights_command.hpp"
+
+int main(int argc, char** argv) {
+  using namespace flowdlo::tools;
+  CLI::App app{"The complete ordered 3D centerline of a rope from one RGB-D frame", "flowdlo"};
+  app.set_version_flag("--version", "flowdlo " FLOWDLO_VERSION);
+  app.require_subcommand(1);
+
+  auto exit_code = ExitCode::kDone;
+  add_estimate_command(app, exit_code);
+  add_devices_command(app);
+  add_weights_command(app, exit_code);
+  add_bench_command(app, exit_code);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& end) {  // --help and --version come this way as well
+    return app.exit(end) == 0 ? 0 : static_cast<int>(ExitCode::kUsage);
+  } catch (const std::exception& failure) {
+    fmt::print(stderr, "flowdlo: {}\n", failure.what());
+    return static_cast<int>(ExitCode::kFailed);
+  }
+  return static_cast<int>(exit_code);
+}

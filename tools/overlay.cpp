@@ -1,0 +1,191 @@
+#include "overlay.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <opencv2/imgproc.hpp>
+#include <vector>
+
+#include "overlay_legend.hpp"
+#include "overlay_style.hpp"
+#include "projected_curve.hpp"
+
+namespace flowdlo::tools {
+namespace {
+
+constexpr int kNarrowest_px = 480;
+constexpr int kLongest_px = 4096;
+constexpr int kShift = 4;  // fixed-point bits of OpenCV's drawing functions
+
+// Whole multiples only, so that every pixel of the camera stays a square.
+int zoom_of(const Frame& frame) {
+  const int wanted = (kNarrowest_px + frame.width - 1) / frame.width;
+  return std::max(1, std::min(wanted, kLongest_px / std::max(frame.width, frame.height)));
+}
+
+cv::Mat mask_of(const Frame& frame) {
+  const cv::Mat view(frame.height, frame.width, CV_8UC1,
+                     const_cast<std::uint8_t*>(frame.mask.data()));  // only read
+  return view > 127;
+}
+
+// Paler and darker than the image, so that the curve stands out.
+cv::Mat background(const Frame& frame, const cv::Mat& mask) {
+  cv::Mat picture;
+  if (frame.color_bgr.empty()) {
+    cv::cvtColor(mask, picture, cv::COLOR_GRAY2BGR);
+    picture.convertTo(picture, -1, 0.35, 40);
+    return picture;
+  }
+  const cv::Mat color(frame.height, frame.width, CV_8UC3,
+                      const_cast<std::uint8_t*>(frame.color_bgr.data()));  // only read
+  cv::Mat gray;
+  cv::cvtColor(color, gray, cv::COLOR_BGR2GRAY);
+  cv::cvtColor(gray, gray, cv::COLOR_GRAY2BGR);
+  cv::addWeighted(color, 0.45, gray, 0.25, 0, picture);
+  return picture;
+}
+
+void draw_mask_outline(cv::Mat& picture, const cv::Mat& mask, const OverlayStyle& style) {
+  std::vector<std::vector<cv::Point>> outlines;
+  cv::findContours(mask, outlines, cv::RETR_CCOMP, cv::CHAIN_APPROX_NONE);
+  cv::Mat layer = picture.clone();
+  cv::drawContours(layer, outlines, -1, kMaskOutlineColor, style.outline_px, cv::LINE_AA);
+  cv::addWeighted(layer, 0.6, picture, 0.4, 0, picture);
+}
+
+void stroke(cv::Mat& picture, const std::vector<cv::Point2f>& points, const cv::Scalar& color,
+            int thickness_px) {
+  std::vector<cv::Point> fixed_point;
+  for (const auto& point : points) {
+    fixed_point.emplace_back(cvRound(point.x * (1 << kShift)), cvRound(point.y * (1 << kShift)));
+  }
+  cv::polylines(picture, fixed_point, false, color, thickness_px, cv::LINE_AA, kShift);
+}
+
+const cv::Scalar& color_of(const Estimate& estimate, std::size_t node) {
+  return estimate.support[node] != 0 ? kSupportedColor : kBridgedColor;
+}
+
+// Each node colours the curve half way to its neighbours.
+void draw_colored(cv::Mat& picture, const ProjectedCurve& curve, const Estimate& estimate,
+                  double from, double to, int line_px) {
+  const auto first = static_cast<int>(std::lround(std::max(from, 0.0)));
+  for (int node = first; node < kNodes && node - 0.5 < to; ++node) {
+    stroke(picture, curve.piece(std::max(from, node - 0.5), std::min(to, node + 0.5)),
+           color_of(estimate, static_cast<std::size_t>(node)), line_px);
+  }
+}
+
+void draw_curve(cv::Mat& picture, const ProjectedCurve& curve, const Estimate& estimate,
+                const OverlayStyle& style) {
+  const int rimmed_px = style.line_px + 2 * style.rim_px;
+  stroke(picture, curve.piece(0, kNodes - 1), kRimColor, rimmed_px);
+  draw_colored(picture, curve, estimate, 0, kNodes - 1, style.line_px);
+
+  // Where it crosses itself, the upper strand once more: its rim cuts the lower one. The flatter
+  // the crossing, the longer the cut.
+  for (const auto& crossing : curve.crossings()) {
+    const float flatness = 1.0F / std::max(crossing.sine, 0.25F);
+    const float half_px = static_cast<float>(rimmed_px) * (0.5F + flatness);
+    const auto reach_px = half_px + static_cast<float>(rimmed_px);  // covers the rim's round ends
+    stroke(picture,
+           curve.piece(curve.advanced(crossing.upper, -half_px),
+                       curve.advanced(crossing.upper, half_px)),
+           kRimColor, rimmed_px);
+    draw_colored(picture, curve, estimate, curve.advanced(crossing.upper, -reach_px),
+                 curve.advanced(crossing.upper, reach_px), style.line_px);
+  }
+}
+
+// Only where they do not run together.
+void draw_nodes(cv::Mat& picture, const ProjectedCurve& curve, const OverlayStyle& style) {
+  constexpr float kLeastSpacing = 3.0F;  // in line widths
+  if (curve.length_px() < kLeastSpacing * static_cast<float>(style.line_px * kNodes)) return;
+  const int radius =
+      OverlayStyle::rounded(0.36F * static_cast<float>(style.line_px * (1 << kShift)));
+  for (const auto& node : curve.nodes_px()) {
+    const cv::Point center(cvRound(node.x * (1 << kShift)), cvRound(node.y * (1 << kShift)));
+    cv::circle(picture, center, radius, kRimColor, cv::FILLED, cv::LINE_AA, kShift);
+  }
+}
+
+// Beyond the end, so that the rope's tip stays in sight; inside the picture.
+cv::Point marker_center(const cv::Point2f& end, const cv::Point2f& inner, const cv::Size& picture,
+                        int radius_px) {
+  const auto outward = end - inner;
+  const float length = std::max(std::hypot(outward.x, outward.y), 1.0e-3F);
+  const auto center = end + outward * (static_cast<float>(radius_px) * 1.5F / length);
+  const auto inside = [radius_px](float at, int size) {
+    return std::clamp(cvRound(at), std::min(radius_px, size - 1),
+                      std::max(0, size - 1 - radius_px));
+  };
+  if (picture.width <= 2 * radius_px || picture.height <= 2 * radius_px) return end;
+  return {inside(center.x, picture.width), inside(center.y, picture.height)};
+}
+
+void draw_marker(cv::Mat& picture, const cv::Point& center, const char* letter,
+                 const cv::Scalar& fill, const cv::Scalar& ink, const OverlayStyle& style) {
+  const int radius = style.marker_radius_px;
+  cv::circle(picture, center, radius, fill, cv::FILLED, cv::LINE_AA);
+  cv::circle(picture, center, radius, ink, std::max(1, style.outline_px), cv::LINE_AA);
+  constexpr int kFont = cv::FONT_HERSHEY_SIMPLEX;
+  const double font_scale = 0.45 * style.scale;
+  const int thickness = OverlayStyle::rounded(1.3F * style.scale);
+  int baseline = 0;
+  const auto size = cv::getTextSize(letter, kFont, font_scale, thickness, &baseline);
+  cv::putText(picture, letter, {center.x - size.width / 2, center.y + size.height / 2}, kFont,
+              font_scale, ink, thickness, cv::LINE_AA);
+}
+
+struct EndMarkers {
+  cv::Point first;
+  cv::Point last;
+};
+
+EndMarkers end_markers(const ProjectedCurve& curve, const cv::Size& picture,
+                       const OverlayStyle& style) {
+  const auto& nodes = curve.nodes_px();
+  const int radius = style.marker_radius_px;
+  return {marker_center(nodes[0], nodes[2], picture, radius),
+          marker_center(nodes[kNodes - 1], nodes[kNodes - 3], picture, radius)};
+}
+
+// What the legend must not cover.
+void mark_drawn(cv::Mat& rope, const ProjectedCurve& curve, const EndMarkers& markers,
+                const OverlayStyle& style) {
+  const cv::Scalar drawn(255);
+  stroke(rope, curve.piece(0, kNodes - 1), drawn, 4 * style.line_px);
+  for (const auto& center : {markers.first, markers.last}) {
+    cv::circle(rope, center, 2 * style.marker_radius_px, drawn, cv::FILLED);
+  }
+}
+
+}  // namespace
+
+cv::Mat draw_overlay(const Frame& frame, const Estimate& estimate, const std::string& device) {
+  const int zoom = zoom_of(frame);
+  const cv::Size size(frame.width * zoom, frame.height * zoom);
+  const cv::Mat mask = mask_of(frame);
+  cv::Mat picture;
+  cv::Mat rope;
+  cv::resize(background(frame, mask), picture, size, 0, 0, cv::INTER_NEAREST);
+  cv::resize(mask, rope, size, 0, 0, cv::INTER_NEAREST);
+
+  const OverlayStyle style(size.width);
+  draw_mask_outline(picture, rope, style);
+  const ProjectedCurve curve(estimate.nodes, frame.intrinsics, static_cast<float>(zoom));
+  if (curve.drawable()) {
+    draw_curve(picture, curve, estimate, style);
+    draw_nodes(picture, curve, style);
+    const auto markers = end_markers(curve, size, style);
+    const cv::Scalar white(255, 255, 255);
+    draw_marker(picture, markers.first, "A", white, kRimColor, style);
+    draw_marker(picture, markers.last, "B", kRimColor, white, style);
+    mark_drawn(rope, curve, markers, style);
+  }
+  draw_legend(picture, rope, estimate, device, style);
+  return picture;
+}
+
+}  // namespace flowdlo::tools

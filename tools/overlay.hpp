@@ -1,0 +1,18 @@
+// Overlay: the estimate drawn over the image, for a person to judge at a glance.
+#pragma once
+
+#include <opencv2/core/mat.hpp>
+#include <string>
+
+#include "flowdlo/estimate.hpp"
+#include "flowdlo/frame.hpp"
+
+namespace flowdlo::tools {
+
+/// The colour image, dimmed (the mask where there is none), with the mask's outline, the curve, its
+/// ends A and B, and a legend. BGR, 8 bits; the frame's size, or a whole multiple of it when the
+/// frame is under 480 px wide. The strand nearer to the camera is drawn over the other.
+[[nodiscard]] cv::Mat draw_overlay(const Frame& frame, const Estimate& estimate,
+                                   const std::string& device);
+
+}  // namespace flowdlo::tools

@@ -1,0 +1,17 @@
+// The overlay's legend: source, confidence, mask agreement, device, and what the colours mean.
+#pragma once
+
+#include <opencv2/core/mat.hpp>
+#include <string>
+
+#include "flowdlo/estimate.hpp"
+#include "overlay_style.hpp"
+
+namespace flowdlo::tools {
+
+/// Draws the legend into the corner of `picture` where it covers least of `rope` (8 bits, the
+/// picture's size, not zero where the rope or the curve is).
+void draw_legend(cv::Mat& picture, const cv::Mat& rope, const Estimate& estimate,
+                 const std::string& device, const OverlayStyle& style);
+
+}  // namespace flowdlo::tools

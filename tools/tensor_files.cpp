@@ -1,0 +1,68 @@
+#include "tensor_files.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+
+#include "npy.hpp"
+
+namespace flowdlo::tools {
+namespace {
+
+enum class Type { kBool, kU8 };
+
+/// Gathers the files and the shapes that do not fit.
+class Gathering {
+ public:
+  void add(const char* name, const std::vector<float>& values, const std::vector<int>& shape) {
+    if (fits(name, values.size(), shape)) files_.emplace_back(name, npy_f32(values, shape));
+  }
+  void add(const char* name, const std::vector<std::uint8_t>& values, const std::vector<int>& shape,
+           Type type) {
+    if (!fits(name, values.size(), shape)) return;
+    files_.emplace_back(name,
+                        type == Type::kBool ? npy_bool(values, shape) : npy_u8(values, shape));
+  }
+  Result<std::vector<std::pair<std::string, std::string>>> result() && {
+    if (!faults_.empty()) return Error{ErrorCode::kInternal, faults_};
+    return std::move(files_);
+  }
+
+ private:
+  bool fits(const char* name, std::size_t count, const std::vector<int>& shape) {
+    std::size_t expected = 1;
+    for (const int side : shape) expected *= static_cast<std::size_t>(std::max(side, 0));
+    if (count == expected) return true;
+    if (!faults_.empty()) faults_ += '\n';
+    faults_ += fmt::format("{}: expected {} values ({}), got {}", name, expected,
+                           fmt::join(shape, " x "), count);
+    return false;
+  }
+
+  std::vector<std::pair<std::string, std::string>> files_;
+  std::string faults_;
+};
+
+}  // namespace
+
+Result<std::vector<std::pair<std::string, std::string>>> tensor_files(const Tensors& tensors) {
+  constexpr int kVisible = 256;
+  const int draws = tensors.draws;
+  const int path_points = static_cast<int>(tensors.path.size() / 2);
+  Gathering files;
+  files.add("source.npy", tensors.source, {draws, kNodes, 3});
+  files.add("visible.npy", tensors.visible, {kVisible, 3});
+  files.add("visible_valid.npy", tensors.visible_valid, {kVisible}, Type::kBool);
+  files.add("path.npy", tensors.path, {path_points, 2});
+  files.add("prior.npy", tensors.prior, {kNodes, 3});
+  files.add("support.npy", tensors.support, {kNodes}, Type::kU8);
+  files.add("draw_prior.npy", tensors.draw_prior, {draws, kNodes, 3});
+  files.add("draw_support.npy", tensors.draw_support, {draws, kNodes}, Type::kU8);
+  files.add("prediction.npy", tensors.prediction, {draws, kNodes, 3});
+  files.add("mask_field.npy", tensors.mask_field, {4, tensors.field_height, tensors.field_width});
+  return std::move(files).result();
+}
+
+}  // namespace flowdlo::tools

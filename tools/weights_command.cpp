@@ -1,0 +1,68 @@
+#include "weights_command.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+
+#include "flowdlo/weights.hpp"
+
+namespace flowdlo::tools {
+namespace {
+
+struct Files {
+  std::filesystem::path input;
+  std::filesystem::path output;
+};
+
+ExitCode report(const Error& error) {
+  fmt::print(stderr, "{}\n", error.message);
+  return ExitCode::kFailed;
+}
+
+ExitCode print_info(const std::filesystem::path& file) {
+  const auto info = inspect_weights(file);
+  if (!info) return report(info.error());
+  for (const auto& [field, value] : info->metadata) fmt::print("{:<24} {}\n", field, value);
+  fmt::print("{:<24} {}\n{:<24} {}\n\n", "parameters", info->parameters, "sha256", info->sha256);
+  for (const auto& tensor : info->tensors) {
+    fmt::print("{:<32} {:<4} [{}]\n", tensor.name, tensor.dtype, fmt::join(tensor.shape, ", "));
+  }
+  return ExitCode::kDone;
+}
+
+ExitCode outcome(const Result<void>& done, const Files& files) {
+  if (!done) return report(done.error());
+  fmt::print("{} -> {}\n", files.input.string(), files.output.string());
+  return ExitCode::kDone;
+}
+
+}  // namespace
+
+void add_weights_command(CLI::App& app, ExitCode& exit_code) {
+  auto files = std::make_shared<Files>();
+  auto* command = app.add_subcommand("weights", "Look into weights files and convert them");
+  command->require_subcommand(1);
+
+  auto* info = command->add_subcommand("info", "Metadata, tensor names, shapes and checksum");
+  info->add_option("FILE", files->input, "A .fdw file")->required();
+  info->callback([files, &exit_code] { exit_code = print_info(files->input); });
+
+  auto* to = command->add_subcommand("export", "From .fdw to .safetensors");
+  to->add_option("FILE", files->input, "A .fdw file")->required();
+  to->add_option("OUT", files->output, "The .safetensors file to write")->required();
+  to->callback([files, &exit_code] {
+    exit_code = outcome(export_safetensors(files->input, files->output), *files);
+  });
+
+  auto* from = command->add_subcommand("import", "From .safetensors to .fdw");
+  from->add_option("IN", files->input, "A .safetensors file")->required();
+  from->add_option("OUT", files->output, "The .fdw file to write")->required();
+  from->callback([files, &exit_code] {
+    exit_code = outcome(import_safetensors(files->input, files->output), *files);
+  });
+}
+
+}  // namespace flowdlo::tools

@@ -1,0 +1,13 @@
+// flowdlo weights: info, export, import.
+#pragma once
+
+#include <CLI/App.hpp>
+
+#include "exit_code.hpp"
+
+namespace flowdlo::tools {
+
+/// Adds the subcommand to `app`. When it runs, it sets `exit_code`.
+void add_weights_command(CLI::App& app, ExitCode& exit_code);
+
+}  // namespace flowdlo::tools
