@@ -4,10 +4,13 @@
 #include <fmt/format.h>
 
 #include <chrono>
+#include <cmath>
+#include <exception>
 #include <vector>
 
 #include "estimator/confidence.hpp"
 #include "estimator/device_choice.hpp"
+#include "estimator/hypotheses.hpp"
 #include "estimator/tensors.hpp"
 #include "estimator/weights_location.hpp"
 #include "evidence/mask_field.hpp"
@@ -52,8 +55,30 @@ Result<void> check(const Config& config) {
          config.max_height);
   expect(config.device_timeout_ms >= 1, "device_timeout_ms", "at least 1",
          config.device_timeout_ms);
+  if (!std::isfinite(config.rope_length_m) || config.rope_length_m < 0) {
+    faults += fmt::format("{}Config.rope_length_m: expected metres, or 0 for unknown, got {}",
+                          faults.empty() ? "" : "\n", config.rope_length_m);
+  }
   if (faults.empty()) return {};
   return Error{ErrorCode::kBadInput, faults};
+}
+
+/// Nothing that a dependency throws leaves the library.
+template <class Work>
+auto guarded(const char* who, const Work& work) -> decltype(work()) {
+  try {
+    return work();
+  } catch (const std::exception& thrown) {
+    return Error{
+        ErrorCode::kInternal,
+        fmt::format("{}: expected no exception, got \"{}\"; please report it", who, thrown.what())};
+  }
+}
+
+Error no_evidence() {
+  return {ErrorCode::kNoEvidence,
+          "Frame: expected depth on the mask, got no mask pixel with a depth above 1e-6 m; check "
+          "the mask, and that depth is in metres and aligned to it"};
 }
 
 /// A rope rarely covers more of an image than this; a denser mask makes the sampler grow once.
@@ -77,11 +102,17 @@ struct Estimator::Impl {
   std::string device;
   flow::Sampler sampler;
 
+  static Result<std::unique_ptr<Impl>> create(const Config& config);
   Result<Estimate> estimate(const Frame& frame, Tensors* tensors);
   Result<flow::Prediction> sample(const flow::SampleInput& input);
+  [[nodiscard]] weights::PriorKind prior_kind() const;
+  [[nodiscard]] Estimate conclude(const std::vector<estimator::Hypothesis>& hypotheses,
+                                  const flow::Prediction& prediction, gate::Verdict verdict,
+                                  const std::vector<int>& assigned, float margin,
+                                  const gate::DilatedMask& mask, const Frame& frame) const;
 };
 
-Result<Estimator> Estimator::create(const Config& config) {
+Result<std::unique_ptr<Estimator::Impl>> Estimator::Impl::create(const Config& config) {
   if (auto checked = check(config); !checked) return checked.error();
   auto file = config.weights.empty() ? estimator::default_weights()
                                      : Result<std::filesystem::path>(config.weights);
@@ -94,8 +125,7 @@ Result<Estimator> Estimator::create(const Config& config) {
   if (!back_end) return back_end.error();
   auto sampler = flow::Sampler::create(weights, back_end->make_program, sampler_config(config));
   if (!sampler) return sampler.error();
-  return Estimator(
-      std::make_unique<Impl>(Impl{config, weights, back_end->name, *std::move(sampler)}));
+  return std::make_unique<Impl>(Impl{config, weights, back_end->name, *std::move(sampler)});
 }
 
 /// The model's predictions. Where the device was left to us, a lost one is replaced by the CPU.
@@ -110,29 +140,71 @@ Result<flow::Prediction> Estimator::Impl::sample(const flow::SampleInput& input)
   return sampler.sample(input);
 }
 
+weights::PriorKind Estimator::Impl::prior_kind() const {
+  switch (config.prior) {
+    case PriorChoice::kThesis:
+      return weights::PriorKind::kThesis;
+    case PriorChoice::kRefined:
+      return weights::PriorKind::kRefined;
+    case PriorChoice::kOfWeights:
+      break;
+  }
+  return weights->metadata.variant.prior_kind;
+}
+
+/// The caller's view of what the gate chose, Eq. (3.33).
+Estimate Estimator::Impl::conclude(const std::vector<estimator::Hypothesis>& hypotheses,
+                                   const flow::Prediction& prediction, gate::Verdict verdict,
+                                   const std::vector<int>& assigned, float margin,
+                                   const gate::DilatedMask& mask, const Frame& frame) const {
+  const auto at = [](int index) { return static_cast<std::size_t>(index); };
+  const std::size_t used = verdict.draw >= 0 ? at(assigned[at(verdict.draw)]) : 0;
+  const prior::Prior& prior = hypotheses[used].prior;
+
+  Estimate estimate;
+  estimate.source = verdict.source;
+  estimate.draw = verdict.draw;
+  estimate.nodes = verdict.draw >= 0 ? prediction.draws[at(verdict.draw)] : prior.nodes;
+  estimate.support = prior.support;
+  estimate.sigma_m = estimator::node_sigma(verdict.source, verdict.draw, prediction, prior);
+  estimate.mask_agreement = mask.agreement(estimate.nodes, frame.intrinsics);
+  estimate.prior_mask_agreement = verdict.prior_agreement;
+  estimate.confidence = estimator::confidence(estimate.mask_agreement, margin, estimate.support);
+  estimate.draws = std::move(verdict.draws);
+  for (std::size_t i = 0; i < hypotheses.size(); ++i) {
+    if (i == used) continue;
+    const auto& other = hypotheses[i];
+    estimate.alternatives.push_back({other.prior.nodes, static_cast<float>(other.score),
+                                     mask.agreement(other.prior.nodes, frame.intrinsics)});
+  }
+  return estimate;
+}
+
 Result<Estimate> Estimator::Impl::estimate(const Frame& frame, Tensors* tensors) {
   if (auto valid = validate(frame); !valid) return valid.error();
-  Estimate estimate;
-  Timings& timings = estimate.timings;
+  Timings timings;
   Stopwatch total;
   Stopwatch stage;
 
   const auto cloud = evidence::unproject(frame);  // Sec. 3.2
-  if (cloud.points_cam.empty()) {
-    return Error{ErrorCode::kNoEvidence,
-                 "Frame: expected depth on the mask, got no mask pixel with a depth above 1e-6 m; "
-                 "check the mask, and that depth is in metres and aligned to it"};
-  }
+  if (cloud.points_cam.empty()) return no_evidence();
   const auto visible = evidence::visible_points(cloud);
   stage.lap(timings.evidence_ms);
 
-  const auto paths = path::trace(frame, {});  // Sec. 3.3
+  const auto paths = path::trace(frame, {.rope_length_m = config.rope_length_m});  // Sec. 3.3
   stage.lap(timings.path_ms);
   if (!paths) return paths.error();
 
-  const auto prior = prior::lift(paths->ranked.front(), visible, frame);  // Eq. (3.1)-(3.7)
-  if (!prior) return prior.error();
-  const std::vector<prior::Prior> draw_priors(static_cast<std::size_t>(config.draws), *prior);
+  const auto hypotheses = estimator::lift_all(*paths, cloud, visible, frame, prior_kind());
+  if (!hypotheses) return hypotheses.error();
+  const auto assigned =
+      estimator::assign_draws(static_cast<int>(hypotheses->size()), paths->margin, config.draws);
+  std::vector<prior::Prior> draw_priors;
+  std::vector<Centerline> draw_prior_nodes;
+  for (const int hypothesis : assigned) {
+    draw_priors.push_back((*hypotheses)[static_cast<std::size_t>(hypothesis)].prior);
+    draw_prior_nodes.push_back(draw_priors.back().nodes);
+  }
   stage.lap(timings.prior_ms);
 
   const auto field = evidence::mask_field(frame);
@@ -145,40 +217,34 @@ Result<Estimate> Estimator::Impl::estimate(const Frame& frame, Tensors* tensors)
   stage.lap(timings.model_ms);
 
   const gate::DilatedMask mask(frame);
-  const std::vector<Centerline> prior_nodes(draw_priors.size(), prior->nodes);
-  auto verdict = gate::choose(prediction->draws, prior_nodes, prior->nodes, mask,
-                              frame.intrinsics);  // Eq. (3.30)-(3.33)
-  estimate.source = verdict.source;
-  estimate.draw = verdict.draw;
-  estimate.nodes =
-      verdict.draw >= 0 ? prediction->draws[static_cast<std::size_t>(verdict.draw)] : prior->nodes;
-  estimate.support = prior->support;
-  estimate.sigma_m = estimator::node_sigma(verdict.source, verdict.draw, *prediction, *prior);
-  estimate.mask_agreement = mask.agreement(estimate.nodes, frame.intrinsics);
-  estimate.prior_mask_agreement = verdict.prior_agreement;
-  estimate.confidence =
-      estimator::confidence(estimate.mask_agreement, paths->margin, estimate.support);
-  estimate.draws = std::move(verdict.draws);
-  for (std::size_t i = 1; i < paths->ranked.size(); ++i) {
-    const auto lifted = prior::lift(paths->ranked[i], visible, frame);
-    if (!lifted) continue;
-    estimate.alternatives.push_back({lifted->nodes, static_cast<float>(paths->ranked[i].score),
-                                     mask.agreement(lifted->nodes, frame.intrinsics)});
-  }
+  auto verdict = gate::choose(prediction->draws, draw_prior_nodes, hypotheses->front().prior.nodes,
+                              mask, frame.intrinsics);  // Eq. (3.30)-(3.33)
+  Estimate estimate =
+      conclude(*hypotheses, *prediction, std::move(verdict), assigned, paths->margin, mask, frame);
   stage.lap(timings.gate_ms);
   total.lap(timings.total_ms);
+  estimate.timings = std::move(timings);
 
   if (tensors != nullptr) {
-    *tensors = estimator::collect_tensors(sampler.source(), paths->ranked.front(), draw_priors,
-                                          *prediction, field);
+    *tensors =
+        estimator::collect_tensors(sampler.source(), paths->ranked.front(),
+                                   hypotheses->front().prior, draw_priors, *prediction, field);
   }
   return estimate;
 }
 
-Result<Estimate> Estimator::estimate(const Frame& frame) { return impl_->estimate(frame, nullptr); }
+Result<Estimator> Estimator::create(const Config& config) {
+  auto impl = guarded("Estimator::create", [&] { return Impl::create(config); });
+  if (!impl) return impl.error();
+  return Estimator(*std::move(impl));
+}
+
+Result<Estimate> Estimator::estimate(const Frame& frame) {
+  return guarded("Estimator::estimate", [&] { return impl_->estimate(frame, nullptr); });
+}
 
 Result<Estimate> Estimator::estimate(const Frame& frame, Tensors& tensors) {
-  return impl_->estimate(frame, &tensors);
+  return guarded("Estimator::estimate", [&] { return impl_->estimate(frame, &tensors); });
 }
 
 const std::string& Estimator::device() const { return impl_->device; }

@@ -22,7 +22,7 @@ std::vector<float> planes(const evidence::MaskField& field) {
 }  // namespace
 
 Tensors collect_tensors(std::span<const float> source, const path::Path& path,
-                        std::span<const prior::Prior> draw_priors,
+                        const prior::Prior& best, std::span<const prior::Prior> draw_priors,
                         const flow::Prediction& prediction, const evidence::MaskField& field) {
   Tensors tensors;
   tensors.draws = static_cast<int>(prediction.draws.size());
@@ -38,8 +38,8 @@ Tensors collect_tensors(std::span<const float> source, const path::Path& path,
   for (const Eigen::Vector2f& sample : path.points_px) {
     tensors.path.insert(tensors.path.end(), {sample.x(), sample.y()});
   }
-  append(tensors.prior, draw_priors.front().nodes);
-  tensors.support.assign(draw_priors.front().support.begin(), draw_priors.front().support.end());
+  append(tensors.prior, best.nodes);
+  tensors.support.assign(best.support.begin(), best.support.end());
   for (const prior::Prior& prior : draw_priors) {
     append(tensors.draw_prior, prior.nodes);
     tensors.draw_support.insert(tensors.draw_support.end(), prior.support.begin(),

@@ -12,9 +12,10 @@
 
 namespace flowdlo::estimator {
 
-/// `source` is [D, 64, 4] as the sampler holds it; `draw_priors` has one prior for each draw, the
-/// first being the frame's.
+/// `source` is [D, 64, 4] as the sampler holds it; `prior` is the best traversal's, `draw_priors`
+/// what each draw was conditioned on.
 [[nodiscard]] Tensors collect_tensors(std::span<const float> source, const path::Path& path,
+                                      const prior::Prior& prior,
                                       std::span<const prior::Prior> draw_priors,
                                       const flow::Prediction& prediction,
                                       const evidence::MaskField& field);

@@ -1,0 +1,77 @@
+#include "estimator/hypotheses.hpp"
+
+#include <gtest/gtest.h>
+
+#include "support/wave_frame.hpp"
+
+namespace flowdlo {
+namespace {
+
+using Draws = std::vector<int>;
+
+TEST(AssignDraws, AClearWinnerTakesAllDraws) {
+  EXPECT_EQ(estimator::assign_draws(3, 0.9F, 4), (Draws{0, 0, 0, 0}));
+}
+
+TEST(AssignDraws, InDoubtRunnersUpGetADrawEach) {
+  EXPECT_EQ(estimator::assign_draws(3, 0.1F, 4), (Draws{0, 0, 2, 1}));
+  EXPECT_EQ(estimator::assign_draws(2, 0.1F, 4), (Draws{0, 0, 0, 1}));
+}
+
+TEST(AssignDraws, TheWinnerKeepsAtLeastHalf) {
+  EXPECT_EQ(estimator::assign_draws(9, 0.0F, 5), (Draws{0, 0, 0, 2, 1}));
+  EXPECT_EQ(estimator::assign_draws(9, 0.0F, 1), (Draws{0}));
+}
+
+TEST(AssignDraws, WithoutARunnerUpThereIsNothingToAssign) {
+  EXPECT_EQ(estimator::assign_draws(1, 0.0F, 2), (Draws{0, 0}));
+}
+
+class LiftAll : public ::testing::Test {
+ protected:
+  testing::WaveFrame wave_;
+  Frame frame_ = wave_.frame();
+  evidence::Cloud cloud_ = evidence::unproject(frame_);
+  evidence::VisiblePoints visible_ = evidence::visible_points(cloud_);
+};
+
+TEST_F(LiftAll, RunnersUpThatCannotBeLiftedAreLeftOut) {
+  auto paths = path::trace(frame_);
+  ASSERT_TRUE(paths);
+  paths->ranked.resize(1);
+  path::Path elsewhere;  // off the mask: nothing supports it
+  elsewhere.points_px = {{5.0F, 5.0F}, {60.0F, 5.0F}};
+  elsewhere.bridged = {0, 0};
+  paths->ranked.push_back(elsewhere);
+  const auto lifted =
+      estimator::lift_all(*paths, cloud_, visible_, frame_, weights::PriorKind::kThesis);
+  ASSERT_TRUE(lifted);
+  EXPECT_EQ(lifted->size(), 1U);
+}
+
+TEST_F(LiftAll, FailsWhenTheBestTraversalCannotBeLifted) {
+  path::Traversals paths;
+  paths.ranked.resize(1);
+  paths.ranked[0].points_px = {{5.0F, 5.0F}, {60.0F, 5.0F}};
+  paths.ranked[0].bridged = {0, 0};
+  paths.rope_width_px = 9;
+  const auto lifted =
+      estimator::lift_all(paths, cloud_, visible_, frame_, weights::PriorKind::kThesis);
+  ASSERT_FALSE(lifted);
+  EXPECT_EQ(lifted.error().code, ErrorCode::kNoEvidence);
+}
+
+TEST_F(LiftAll, KindOfPriorIsTheOneAskedFor) {
+  const auto paths = path::trace(frame_);
+  ASSERT_TRUE(paths);
+  const auto thesis =
+      estimator::lift_all(*paths, cloud_, visible_, frame_, weights::PriorKind::kThesis);
+  const auto refined =
+      estimator::lift_all(*paths, cloud_, visible_, frame_, weights::PriorKind::kRefined);
+  ASSERT_TRUE(thesis && refined);
+  // The refined prior lies behind the surface that the thesis' prior lies on.
+  EXPECT_GT(refined->front().prior.nodes[20].z, thesis->front().prior.nodes[20].z);
+}
+
+}  // namespace
+}  // namespace flowdlo
