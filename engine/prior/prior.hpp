@@ -20,13 +20,16 @@ struct LiftConfig {
   float sigma_arc_px = 12.0F;    ///< Eq. (3.4)
 };
 
+/// sigma_m is not calibrated. Supported: the spread of the points behind the node together with
+/// 1 mm and one pixel's width. Others: a supported neighbour's, and half of the gap to it.
 struct Prior {
   Centerline nodes{};                          ///< X_prior, canonical direction
   std::array<std::uint8_t, kNodes> support{};  ///< h_i, Eq. (3.6)
   std::array<float, kNodes> sigma_m{};         ///< spread of what backs a node; grows over gaps
 };
 
-/// Fails with kNoEvidence when no visible point supports any node.
+/// Fails with kNoEvidence when no visible point supports any node, with kNoPath when the path has
+/// fewer than two points or one that is not finite.
 [[nodiscard]] Result<Prior> lift(const path::Path& path, const evidence::VisiblePoints& visible,
                                  const Frame& frame, const LiftConfig& config = {});
 

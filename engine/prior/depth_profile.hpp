@@ -1,0 +1,33 @@
+// DepthProfile: one smooth depth along the rope through noisy, missing and foreign depths.
+#pragma once
+
+#include <span>
+#include <vector>
+
+namespace flowdlo::prior {
+
+/// A depth that somebody claims for a station.
+struct DepthClaim {
+  int station = 0;
+  float depth_m = 0;
+  float weight = 1;
+};
+
+struct ProfileConfig {
+  float smoothing_stations = 8;  ///< bends in depth shorter than this are noise
+  float tension_stations = 48;   ///< gaps longer than this are bridged by straight lines
+  float claims_per_station = 8;  ///< what a well-seen station has
+  float noise_m = 0.002F;        ///< misfit that is always forgiven
+};
+
+/// [stations] depth minimising
+///   sum w rho(z_i - claim) + stiffness sum (z_{i-1} - 2 z_i + z_{i+1})^2
+///                          + tension   sum (z_{i+1} - z_i)^2,
+/// rho Cauchy's, then Tukey's biweight: claims far from what most say count nothing. Beyond the
+/// outermost claims the profile goes on along its slope, which dies away over `tension_stations`.
+/// Starts from `guess_m` when it is not empty. Needs a claim of positive weight.
+[[nodiscard]] std::vector<double> fit_profile(int stations, std::span<const DepthClaim> claims,
+                                              std::span<const double> guess_m,
+                                              const ProfileConfig& config);
+
+}  // namespace flowdlo::prior

@@ -1,0 +1,208 @@
+#include "prior/refined_prior.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+#include "geometry/camera.hpp"
+#include "geometry/polyline.hpp"
+#include "prior/association.hpp"
+#include "prior/ends.hpp"
+#include "prior/rope_depth.hpp"
+#include "prior/side_by_side.hpp"
+#include "prior/strip.hpp"
+
+namespace flowdlo::prior {
+namespace {
+
+using Eigen::Vector2f;
+using Eigen::Vector3f;
+
+constexpr float kMostWidthPx = 400.0F;
+// sigma_m: what seen nodes are off by on drawn scenes, doubled; then metres a metre of rope away
+// from the nearest seen one.
+constexpr float kSigmaFloor_m = 0.0005F;
+constexpr float kSigmaPixels = 0.4F;
+constexpr float kSigmaNoise = 0.2F;    // what smoothing leaves of the depths' noise
+constexpr float kMaskedGrowth = 0.1F;  // the mask shows where it runs, but not how deep
+constexpr float kGapGrowth = 0.25F;
+constexpr float kHiddenGrowth = 0.4F;  // under another strand
+constexpr float kMostSigma_m = 1.0F;
+
+/// The centerline as a fine polyline, with what is known about each of its points.
+struct Curve {
+  std::vector<Vector3f> points_cam;
+  std::vector<float> arclength_px;  // on the strip
+  std::vector<float> sigma_m;
+};
+
+/// What each station's sigma grows by on the way from the nearest one that is seen.
+std::vector<float> unseen_growth(const std::vector<Vector3f>& points, const Strip& strip,
+                                 const RopeDepth& rope) {
+  std::vector<float> growth(points.size(), kMostSigma_m);
+  const auto pass = [&](std::size_t i, std::size_t from) {
+    const float open = strip.stations[i].masked ? kMaskedGrowth : kGapGrowth;
+    const float rate = rope.hidden[i] != 0 ? kHiddenGrowth : open;
+    growth[i] = std::min(growth[i], growth[from] + rate * (points[i] - points[from]).norm());
+  };
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (rope.seen[i] != 0) growth[i] = 0;
+  }
+  for (std::size_t i = 1; i < points.size(); ++i) pass(i, i - 1);
+  for (std::size_t i = points.size() - 1; i-- > 0;) pass(i, i + 1);
+  return growth;
+}
+
+Curve make_curve(const Strip& strip, const RopeDepth& rope, const Extent& extent, float fx) {
+  std::vector<Vector3f> points;
+  for (std::size_t i = 0; i < strip.stations.size(); ++i) {
+    points.push_back(strip.stations[i].ray * static_cast<float>(rope.axis_m[i]));
+  }
+  const std::vector<float> growth = unseen_growth(points, strip, rope);
+  Curve curve;
+  const auto add = [&](float arclength_px) {
+    const float at = std::clamp(arclength_px / std::max(strip.step_px, 1e-6F), 0.0F,
+                                static_cast<float>(points.size() - 1));
+    const std::size_t i = std::min(static_cast<std::size_t>(at), points.size() - 2);
+    const float t = at - static_cast<float>(i);
+    const float own = kSigmaFloor_m + kSigmaPixels * points[i].z() / fx;
+    const float grown = (1 - t) * growth[i] + t * growth[i + 1];
+    curve.points_cam.push_back((1 - t) * points[i] + t * points[i + 1]);
+    curve.arclength_px.push_back(arclength_px);
+    curve.sigma_m.push_back(std::hypot(own, kSigmaNoise * rope.noise_m, grown));
+  };
+  add(extent.begin_px);
+  for (const Station& station : strip.stations) {
+    if (station.arclength_px > extent.begin_px && station.arclength_px < extent.end_px) {
+      add(station.arclength_px);
+    }
+  }
+  add(extent.end_px);
+  return curve;
+}
+
+/// The curve's nodes; returns their arclengths on the strip.
+std::vector<float> place_nodes(const Curve& curve, Prior& prior) {
+  const std::vector<float> length_m = geometry::cumulative_length(curve.points_cam);
+  std::vector<float> arclength_px;
+  std::size_t segment = 0;
+  for (std::size_t i = 0; i < kNodes; ++i) {
+    const float target = static_cast<float>(i) / (kNodes - 1) * length_m.back();
+    while (segment + 2 < length_m.size() && length_m[segment + 1] < target) ++segment;
+    const float span = length_m[segment + 1] - length_m[segment];
+    const float t = span > 0 ? std::clamp((target - length_m[segment]) / span, 0.0F, 1.0F) : 0;
+    prior.nodes[i] =
+        geometry::to_point((1 - t) * curve.points_cam[segment] + t * curve.points_cam[segment + 1]);
+    prior.sigma_m[i] = (1 - t) * curve.sigma_m[segment] + t * curve.sigma_m[segment + 1];
+    arclength_px.push_back((1 - t) * curve.arclength_px[segment] +
+                           t * curve.arclength_px[segment + 1]);
+  }
+  return arclength_px;
+}
+
+/// Eq. (3.3) and (3.6) at the nodes' projections. Returns whether any node is supported.
+bool support_nodes(const Strip& strip, const std::vector<float>& node_arclength_px,
+                   const evidence::VisiblePoints& visible, const Intrinsics& camera,
+                   float radius_px, float arc_window_px, Prior& prior) {
+  std::vector<Vector2f> path_px;
+  std::vector<float> arclength_px;
+  for (const Station& station : strip.stations) {
+    path_px.push_back(station.point_px);
+    arclength_px.push_back(station.arclength_px);
+  }
+  std::vector<Sighting> sightings;
+  for (std::size_t j = 0; j < visible.points_cam.size(); ++j) {
+    const Point3& point = visible.points_cam[j];
+    if (visible.valid[j] == 0 || !(point.z > 0)) continue;
+    sightings.push_back({geometry::project(camera, point), point.z});
+  }
+  const std::vector<float> found =
+      associate(path_px, arclength_px, sightings, radius_px, arc_window_px);
+  bool any = false;
+  for (std::size_t i = 0; i < kNodes; ++i) {
+    const Vector2f node_px = geometry::project(camera, prior.nodes[i]);
+    for (std::size_t j = 0; j < found.size() && prior.support[i] == 0; ++j) {
+      if (found[j] < 0 || std::abs(found[j] - node_arclength_px[i]) > arc_window_px) continue;
+      if ((sightings[j].position_px - node_px).norm() > radius_px) continue;  // Eq. (3.3)
+      prior.support[i] = 1;                                                   // Eq. (3.6)
+      any = true;
+    }
+  }
+  return any;
+}
+
+bool usable(const path::Path& path) {
+  return path.points_px.size() >= 2 &&
+         std::all_of(path.points_px.begin(), path.points_px.end(),
+                     [](const Vector2f& point) { return point.allFinite(); });
+}
+
+/// The path's points, those outside of the image moved to its border.
+std::vector<Vector2f> inside(const path::Path& path, const Frame& frame) {
+  const Vector2f last{static_cast<float>(frame.width - 1), static_cast<float>(frame.height - 1)};
+  std::vector<Vector2f> points;
+  for (const Vector2f& point : path.points_px) {
+    points.emplace_back(point.cwiseMax(Vector2f::Zero()).cwiseMin(last));
+  }
+  return points;
+}
+
+Error no_evidence(const char* expected, int got) {
+  return Error{ErrorCode::kNoEvidence,
+               fmt::format("prior::refine: expected {}, got none of {}; check that depth and mask "
+                           "belong to the same camera",
+                           expected, got)};
+}
+
+}  // namespace
+
+Result<Prior> refine(const path::Path& path, float rope_width_px, const evidence::Cloud& cloud,
+                     const evidence::VisiblePoints& visible, const Frame& frame,
+                     const RefineConfig& config) {
+  if (!usable(path)) {
+    return Error{ErrorCode::kNoPath,
+                 fmt::format("prior::refine: expected a path of at least 2 finite points, got {}; "
+                             "check the mask",
+                             path.points_px.size())};
+  }
+  const std::size_t pixels = static_cast<std::size_t>(frame.width) * frame.height;
+  if (frame.mask.size() != pixels || frame.depth_m.size() != pixels) {
+    return Error{ErrorCode::kBadInput,
+                 fmt::format("prior::refine: expected {} depths and mask pixels, got {} and {}; "
+                             "validate the frame first",
+                             pixels, frame.depth_m.size(), frame.mask.size())};
+  }
+  if (cloud.points_cam.empty()) return no_evidence("mask pixels with a depth", 0);
+  const float width_px =
+      std::isfinite(rope_width_px) ? std::clamp(rope_width_px, 1.0F, kMostWidthPx) : 1.0F;
+  const std::vector<Vector2f> points_px = to_the_tips(inside(path, frame), width_px, frame);
+  Strip strip = make_strip(points_px, width_px, frame, cloud);
+  if (const auto apart = side_by_side(strip)) strip = make_strip(*apart, width_px, frame, cloud);
+  const Extent extent = without_caps(strip, frame);
+  const RopeDepth rope = measure_rope(strip, extent);
+  if (rope.axis_m.empty()) {
+    return no_evidence("depths beside the path", static_cast<int>(cloud.points_cam.size()));
+  }
+  Prior prior;
+  const Curve curve =
+      make_curve(strip, rope, without_hidden_ends(strip, extent, rope.seen), frame.intrinsics.fx);
+  const std::vector<float> arclength_px = place_nodes(curve, prior);
+  const float scale = geometry::pixel_scale(frame.width);
+  const float radius_px = std::max(config.lift.lift_radius_px * scale, 0.5F * width_px);
+  if (!support_nodes(strip, arclength_px, visible, frame.intrinsics, radius_px,
+                     config.lift.arc_window_px * scale, prior)) {
+    return no_evidence("visible points beside the path", visible.count);
+  }
+  if (!is_canonical(prior.nodes)) {  // Sec. 3.3
+    std::reverse(prior.nodes.begin(), prior.nodes.end());
+    std::reverse(prior.support.begin(), prior.support.end());
+    std::reverse(prior.sigma_m.begin(), prior.sigma_m.end());
+  }
+  return prior;
+}
+
+}  // namespace flowdlo::prior
