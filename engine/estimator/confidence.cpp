@@ -9,6 +9,11 @@
 namespace flowdlo::estimator {
 namespace {
 
+// In the order of `confidence_features`. Fitted on synthetic scenes by
+// `flowdlo_confidence fit 400 0`.
+constexpr std::array<double, kConfidenceFeatures> kConfidenceWeights{
+    4.388, 4.191, -3.277, -4.253, -3.672, -3.919, -1.511, -0.393, -3.332, -10.485, -2.780};
+
 /// Root mean square distance of the finite draws to their mean, a node.
 std::array<float, kNodes> spread(const std::vector<Centerline>& draws) {
   std::array<float, kNodes> deviation{};
@@ -33,14 +38,42 @@ std::array<float, kNodes> spread(const std::vector<Centerline>& draws) {
   return deviation;
 }
 
+bool known(const Evidence& evidence) {
+  const gate::TubeScore& tube = evidence.tube;
+  return std::isfinite(tube.mask_recall + tube.mask_precision + tube.depth_agreement +
+                       tube.crossing_agreement + tube.least_sine + tube.bending +
+                       tube.sharpest_bend + evidence.longest_gap);
+}
+
 }  // namespace
 
-float confidence(float mask_agreement, float margin, std::span<const std::uint8_t> support) {
-  const auto supported = std::count(support.begin(), support.end(), std::uint8_t{1});
-  const float share =
-      support.empty() ? 0.0F : static_cast<float>(supported) / static_cast<float>(support.size());
-  const float value = mask_agreement * (0.5F + 0.5F * margin) * (0.5F + 0.5F * share);
-  return std::isfinite(value) ? std::clamp(value, 0.0F, 1.0F) : 0.0F;
+std::array<double, kConfidenceFeatures> confidence_features(const Evidence& evidence, double lead) {
+  const gate::TubeScore& tube = evidence.tube;
+  const auto missing = [](float share, double most) {
+    return std::min(1.0, (1 - static_cast<double>(share)) / most);
+  };
+  const auto some = [](float value, double most) {
+    return std::min(1.0, static_cast<double>(value) / most);
+  };
+  return {1,
+          static_cast<double>(margin(lead)),
+          missing(tube.mask_recall, 0.05),
+          missing(tube.mask_recall, 0.15),
+          missing(tube.mask_precision, 0.1),
+          missing(tube.depth_agreement, 0.1),
+          missing(tube.crossing_agreement, 0.2),
+          missing(tube.least_sine, 1) * missing(tube.least_sine, 1),
+          some(tube.bending, 5),
+          some(tube.sharpest_bend, 1),
+          some(evidence.longest_gap, 15)};
+}
+
+float confidence(const Evidence& evidence, double lead) {
+  if (!known(evidence) || !std::isfinite(lead)) return 0;
+  const auto features = confidence_features(evidence, lead);
+  double logit = 0;
+  for (std::size_t i = 0; i < features.size(); ++i) logit += kConfidenceWeights[i] * features[i];
+  return static_cast<float>(1 / (1 + std::exp(-logit)));
 }
 
 std::array<float, kNodes> node_sigma(Source source, int draw, const flow::Prediction& prediction,

@@ -1,19 +1,26 @@
-// Confidence and uncertainty of an estimate, from what needs no truth. Not calibrated.
+// Confidence and uncertainty of an estimate, from what needs no truth.
 #pragma once
 
 #include <array>
-#include <span>
+#include <cstddef>
 
+#include "estimator/ranking.hpp"
 #include "flow/sampler.hpp"
 #include "flowdlo/estimate.hpp"
 #include "prior/prior.hpp"
 
 namespace flowdlo::estimator {
 
-/// In [0, 1]: mask agreement S_M of the returned curve, times how clearly the traversal won
-/// (`margin` in [0, 1], at worst one half), times the share of nodes with support (at worst half).
-[[nodiscard]] float confidence(float mask_agreement, float margin,
-                               std::span<const std::uint8_t> support);
+/// [kConfidenceFeatures] what the probability is made from, each in [0, 1]: one, the margin, and
+/// then what speaks against the traversal.
+inline constexpr std::size_t kConfidenceFeatures = 11;
+[[nodiscard]] std::array<double, kConfidenceFeatures> confidence_features(const Evidence& evidence,
+                                                                          double lead);
+
+/// In [0, 1]: the probability that the best traversal visits the rope in order and leaves no loop
+/// out, whichever end comes first, when `lead` separates it from the next. Errs towards doubt:
+/// wrong ones counted eightfold when it was fitted. 0 when anything is not finite.
+[[nodiscard]] float confidence(const Evidence& evidence, double lead);
 
 /// [64] metres. A prior's own sigma; for a prediction the model's fourth head where it has one,
 /// otherwise the spread of the draws, never below the prior's sigma of a supported node.

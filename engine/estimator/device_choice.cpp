@@ -33,14 +33,26 @@ int rank(DeviceKind kind) {
 
 bool is_real_gpu(const DeviceReport& report) { return rank(report.kind) < 3; }
 
+/// Config::device_timeout_ms, where it is left to us: a hung device must not hold a robot for long,
+/// and a slow one must not be called lost.
+int timeout_ms(const Config& config, DeviceKind kind) {
+  if (config.device_timeout_ms > 0) return config.device_timeout_ms;
+  constexpr int kUsualWork = 40;  // four draws of ten steps
+  constexpr int kUsual_ms = 10000;
+  constexpr int kCpuDriverFactor = 6;
+  const int work = std::max(config.draws * config.euler_steps, kUsualWork);
+  return kUsual_ms / kUsualWork * work * (kind == DeviceKind::kCpu ? kCpuDriverFactor : 1);
+}
+
 Result<BackEnd> open_vulkan(const Config& config, const std::string& wanted) {
   auto opened = vulkan::open_device(
       {.wanted = wanted, .allow_cpu_driver = true, .validation = config.validation});
   if (!opened) return opened.error();
   const auto device = *opened;
-  const vulkan::ProgramOptions options{.timeout_ms = config.device_timeout_ms,
+  const DeviceReport& report = vulkan::report(*device);
+  const vulkan::ProgramOptions options{.timeout_ms = timeout_ms(config, report.kind),
                                        .pipeline_cache = {}};
-  return BackEnd{vulkan::report(*device).name,
+  return BackEnd{report.name,
                  [device, options] { return vulkan::create_program(device, options); }};
 }
 

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <exception>
@@ -53,7 +54,7 @@ Result<void> check(const Config& config) {
          config.max_width);
   expect(config.max_height >= 1 && config.max_height <= 4096, "max_height", "1 to 4096",
          config.max_height);
-  expect(config.device_timeout_ms >= 1, "device_timeout_ms", "at least 1",
+  expect(config.device_timeout_ms >= 0, "device_timeout_ms", "at least 0",
          config.device_timeout_ms);
   if (!std::isfinite(config.rope_length_m) || config.rope_length_m < 0) {
     faults += fmt::format("{}Config.rope_length_m: expected metres, or 0 for unknown, got {}",
@@ -94,6 +95,16 @@ flow::SamplerConfig sampler_config(const Config& config) {
                        .image_pixels = pixels}};
 }
 
+/// The probability that the hypothesis the estimate follows is right. A runner-up's can only come
+/// out of what the best one's leaves.
+float confidence_of(const std::vector<estimator::Hypothesis>& hypotheses, std::size_t used) {
+  const auto& best = hypotheses.front();
+  const float of_best = estimator::confidence(best.evidence, estimator::lead(hypotheses));
+  if (used == 0) return of_best;
+  const auto& other = hypotheses[used];
+  return std::min(1 - of_best, estimator::confidence(other.evidence, 0));
+}
+
 }  // namespace
 
 struct Estimator::Impl {
@@ -108,8 +119,8 @@ struct Estimator::Impl {
   [[nodiscard]] weights::PriorKind prior_kind() const;
   [[nodiscard]] Estimate conclude(const std::vector<estimator::Hypothesis>& hypotheses,
                                   const flow::Prediction& prediction, gate::Verdict verdict,
-                                  const std::vector<int>& assigned, float margin,
-                                  const gate::DilatedMask& mask, const Frame& frame) const;
+                                  const std::vector<int>& assigned, const gate::DilatedMask& mask,
+                                  const Frame& frame) const;
 };
 
 Result<std::unique_ptr<Estimator::Impl>> Estimator::Impl::create(const Config& config) {
@@ -155,8 +166,8 @@ weights::PriorKind Estimator::Impl::prior_kind() const {
 /// The caller's view of what the gate chose, Eq. (3.33).
 Estimate Estimator::Impl::conclude(const std::vector<estimator::Hypothesis>& hypotheses,
                                    const flow::Prediction& prediction, gate::Verdict verdict,
-                                   const std::vector<int>& assigned, float margin,
-                                   const gate::DilatedMask& mask, const Frame& frame) const {
+                                   const std::vector<int>& assigned, const gate::DilatedMask& mask,
+                                   const Frame& frame) const {
   const auto at = [](int index) { return static_cast<std::size_t>(index); };
   const std::size_t used = verdict.draw >= 0 ? at(assigned[at(verdict.draw)]) : 0;
   const prior::Prior& prior = hypotheses[used].prior;
@@ -169,7 +180,7 @@ Estimate Estimator::Impl::conclude(const std::vector<estimator::Hypothesis>& hyp
   estimate.sigma_m = estimator::node_sigma(verdict.source, verdict.draw, prediction, prior);
   estimate.mask_agreement = mask.agreement(estimate.nodes, frame.intrinsics);
   estimate.prior_mask_agreement = verdict.prior_agreement;
-  estimate.confidence = estimator::confidence(estimate.mask_agreement, margin, estimate.support);
+  estimate.confidence = confidence_of(hypotheses, used);
   estimate.draws = std::move(verdict.draws);
   for (std::size_t i = 0; i < hypotheses.size(); ++i) {
     if (i == used) continue;
@@ -197,8 +208,9 @@ Result<Estimate> Estimator::Impl::estimate(const Frame& frame, Tensors* tensors)
 
   const auto hypotheses = estimator::lift_all(*paths, cloud, visible, frame, prior_kind());
   if (!hypotheses) return hypotheses.error();
+  const float margin = estimator::margin(estimator::lead(*hypotheses));
   const auto assigned =
-      estimator::assign_draws(static_cast<int>(hypotheses->size()), paths->margin, config.draws);
+      estimator::assign_draws(static_cast<int>(hypotheses->size()), margin, config.draws);
   std::vector<prior::Prior> draw_priors;
   std::vector<Centerline> draw_prior_nodes;
   for (const int hypothesis : assigned) {
@@ -219,15 +231,14 @@ Result<Estimate> Estimator::Impl::estimate(const Frame& frame, Tensors* tensors)
   const gate::DilatedMask mask(frame);
   auto verdict = gate::choose(prediction->draws, draw_prior_nodes, hypotheses->front().prior.nodes,
                               mask, frame.intrinsics);  // Eq. (3.30)-(3.33)
-  Estimate estimate =
-      conclude(*hypotheses, *prediction, std::move(verdict), assigned, paths->margin, mask, frame);
+  Estimate estimate = conclude(*hypotheses, *prediction, std::move(verdict), assigned, mask, frame);
   stage.lap(timings.gate_ms);
   total.lap(timings.total_ms);
   estimate.timings = std::move(timings);
 
   if (tensors != nullptr) {
     *tensors =
-        estimator::collect_tensors(sampler.source(), paths->ranked.front(),
+        estimator::collect_tensors(sampler.source(), paths->ranked[hypotheses->front().path],
                                    hypotheses->front().prior, draw_priors, *prediction, field);
   }
   return estimate;

@@ -1,7 +1,10 @@
 #include "estimator/hypotheses.hpp"
 
 #include <algorithm>
+#include <limits>
+#include <utility>
 
+#include "gate/tube_score.hpp"
 #include "prior/refined_prior.hpp"
 
 namespace flowdlo::estimator {
@@ -10,18 +13,33 @@ Result<std::vector<Hypothesis>> lift_all(const path::Traversals& paths,
                                          const evidence::Cloud& cloud,
                                          const evidence::VisiblePoints& visible, const Frame& frame,
                                          weights::PriorKind kind) {
+  gate::TubeView view(frame, paths.rope_width_px);
   std::vector<Hypothesis> hypotheses;
-  for (const path::Path& path : paths.ranked) {
+  double best = -std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < paths.ranked.size(); ++i) {
+    const path::Path& path = paths.ranked[i];
+    if (path.score < paths.ranked.front().score - kReach || path.score < best - kSlack) continue;
+    const auto refined = prior::refine(path, paths.rope_width_px, cloud, visible, frame);
     auto lifted = kind == weights::PriorKind::kThesis
                       ? prior::lift(path, visible, frame)  // Eq. (3.1)-(3.7)
-                      : prior::refine(path, paths.rope_width_px, cloud, visible, frame);
-    if (lifted) {
-      hypotheses.push_back({*std::move(lifted), path.score});
-    } else if (hypotheses.empty()) {
-      return lifted.error();
+                      : refined;
+    if (!lifted) {
+      if (hypotheses.empty()) return lifted.error();
+      continue;
     }
+    const Evidence evidence = judge(path, paths.rope_width_px, refined ? &*refined : nullptr, view);
+    hypotheses.push_back(
+        {*std::move(lifted), i, path.score, rescored(path.score, evidence), evidence});
+    best = std::max(best, hypotheses.back().score);
   }
+  std::stable_sort(hypotheses.begin(), hypotheses.end(),
+                   [](const Hypothesis& a, const Hypothesis& b) { return a.score > b.score; });
   return hypotheses;
+}
+
+double lead(const std::vector<Hypothesis>& hypotheses) {
+  if (hypotheses.size() < 2) return kReach;
+  return std::clamp(hypotheses[0].score - hypotheses[1].score, 0.0, kReach);
 }
 
 std::vector<int> assign_draws(int hypotheses, float margin, int draws) {

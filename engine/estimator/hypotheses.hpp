@@ -1,8 +1,11 @@
-// Hypotheses: every traversal of the mask lifted to 3D, and which draw is conditioned on which.
+// Hypotheses: the traversals of the mask lifted to 3D, in the order in which they explain the
+// frame, and which draw is conditioned on which.
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
+#include "estimator/ranking.hpp"
 #include "evidence/visible_points.hpp"
 #include "flowdlo/frame.hpp"
 #include "flowdlo/result.hpp"
@@ -12,18 +15,26 @@
 
 namespace flowdlo::estimator {
 
-/// A traversal and its prior.
+/// A traversal, its prior, and how well it explains the frame.
 struct Hypothesis {
-  prior::Prior prior;
-  double score = 0;  ///< of the traversal, path::Path::score
+  prior::Prior prior;     ///< of the kind asked for
+  std::size_t path = 0;   ///< index in path::Traversals::ranked
+  double path_score = 0;  ///< path::Path::score
+  double score = 0;       ///< after comparing with mask and depth, `rescored`
+  Evidence evidence;      ///< of the refined prior, whatever kind `prior` is
 };
 
-/// Best first; never empty. Fails as the lift of the best traversal does; runners-up that cannot be
-/// lifted are left out.
+/// Best `score` first, ties in the order of `paths`; never empty. Fails as the lift of the best
+/// traversal does; runners-up that cannot be lifted are left out, and so are those whose path
+/// score is so low (kReach, kSlack) that no comparison would bring them near the front.
 [[nodiscard]] Result<std::vector<Hypothesis>> lift_all(const path::Traversals& paths,
                                                        const evidence::Cloud& cloud,
                                                        const evidence::VisiblePoints& visible,
                                                        const Frame& frame, weights::PriorKind kind);
+
+/// How far the first hypothesis leads the second, in units of path::Path::score; `kReach` when it
+/// is alone.
+[[nodiscard]] double lead(const std::vector<Hypothesis>& hypotheses);
 
 /// [draws] index of the hypothesis each draw is conditioned on. A clear winner takes all draws.
 /// Below kDoubt of `margin` runners-up get one draw each, from the last draw backwards, and the
@@ -31,5 +42,7 @@ struct Hypothesis {
 [[nodiscard]] std::vector<int> assign_draws(int hypotheses, float margin, int draws);
 
 inline constexpr float kDoubt = 0.5F;  ///< margin below which runners-up are worth a draw
+inline constexpr double kReach = 6;    ///< path score by which a runner-up may trail the first
+inline constexpr double kSlack = 1;    ///< and by which it may miss the best score so far
 
 }  // namespace flowdlo::estimator

@@ -22,10 +22,11 @@ struct DrawReport {
   float mask_agreement = 0;     ///< S_M, Eq. (3.32), in [0, 1]
 };
 
-/// A traversal that lost to the returned one, and how close it came.
+/// A traversal that lost to the returned one, and how close it came. Those that trail hopelessly
+/// are not listed.
 struct Alternative {
   Centerline nodes{};        ///< lifted like the prior, camera frame, metres
-  float score = 0;           ///< of the traversal, higher is better; comparable within a frame
+  float score = 0;           ///< how well it explains mask and depth; comparable within a frame
   float mask_agreement = 0;  ///< S_M, Eq. (3.32)
 };
 
@@ -33,7 +34,7 @@ struct Alternative {
 struct Timings {
   double evidence_ms = 0;    ///< Sec. 3.2
   double path_ms = 0;        ///< Sec. 3.3, mask to ordered path
-  double prior_ms = 0;       ///< Eq. (3.1)-(3.7)
+  double prior_ms = 0;       ///< Eq. (3.1)-(3.7), and comparing the traversals with the frame
   double mask_field_ms = 0;  ///< the field that the local features of Eq. (3.15) read
   double model_ms = 0;       ///< Eq. (3.26)-(3.28), upload and read-back included
   double gate_ms = 0;        ///< Eq. (3.30)-(3.33)
@@ -48,7 +49,10 @@ struct Estimate {
   std::array<float, kNodes> sigma_m{};       ///< standard deviation a node, metres; not calibrated
   Source source = Source::kPrior;            ///< which branch of Eq. (3.33)
   int draw = -1;                             ///< index of the returned draw; -1: the prior
-  float confidence = 0;                      ///< in [0, 1]; ranks frames, not calibrated
+  /// In [0, 1]: the probability that `nodes` visit the rope in order and leave no loop out,
+  /// whichever end comes first. A logistic model fitted on synthetic scenes: below 0.5 means that
+  /// another way through the mask, or a mask that hides the way, has to be reckoned with.
+  float confidence = 0;
   float mask_agreement = 0;                  ///< S_M of `nodes`, Eq. (3.32), in [0, 1]
   float prior_mask_agreement = 0;            ///< S_M of the prior
   std::vector<DrawReport> draws;             ///< one for each draw

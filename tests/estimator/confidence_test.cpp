@@ -2,29 +2,84 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
+#include <vector>
+
+#include "estimator/hypotheses.hpp"
 
 namespace flowdlo {
 namespace {
 
-const std::array<std::uint8_t, 4> kAll{1, 1, 1, 1};
-const std::array<std::uint8_t, 4> kHalf{1, 0, 1, 0};
+using estimator::confidence;
+using estimator::Evidence;
 
-TEST(Confidence, IsOneWhenNothingSpeaksAgainstTheCurve) {
-  EXPECT_FLOAT_EQ(estimator::confidence(1.0F, 1.0F, kAll), 1.0F);
+/// A rope without crossings that explains mask and depth.
+Evidence clear_case() {
+  Evidence evidence;
+  evidence.tube = {.mask_recall = 1,
+                   .mask_precision = 1,
+                   .hidden_share = 0,
+                   .depth_agreement = 1,
+                   .depth_bias = 0,
+                   .crossing_agreement = 1,
+                   .overlap_share = 0,
+                   .crossings = 0,
+                   .least_sine = 1,
+                   .least_clearance = 1,
+                   .bending = 0.5F,
+                   .sharpest_bend = 0.1F};
+  evidence.supported = 1;
+  evidence.length_widths = 80;
+  return evidence;
 }
 
-TEST(Confidence, ATieOfTraversalsHalvesIt) {
-  EXPECT_FLOAT_EQ(estimator::confidence(1.0F, 0.0F, kAll), 0.5F);
+constexpr double kAlone = estimator::kReach;
+
+TEST(Confidence, IsHighWhenNothingSpeaksAgainstTheTraversal) {
+  EXPECT_GT(confidence(clear_case(), kAlone), 0.95F);
 }
 
-TEST(Confidence, MissingSupportLowersIt) {  // 0.5 + 0.5 * 1/2
-  EXPECT_FLOAT_EQ(estimator::confidence(1.0F, 1.0F, kHalf), 0.75F);
+TEST(Confidence, IsLowWhereATubeLeavesALoopOfTheMaskUnexplained) {
+  Evidence evidence = clear_case();
+  evidence.tube.mask_recall = 0.8F;
+  EXPECT_LT(confidence(evidence, kAlone), 0.5F);
 }
 
-TEST(Confidence, IsZeroOffTheMaskAndForWhatIsNotANumber) {
-  EXPECT_FLOAT_EQ(estimator::confidence(0.0F, 1.0F, kAll), 0.0F);
-  EXPECT_FLOAT_EQ(estimator::confidence(std::numeric_limits<float>::quiet_NaN(), 1, kAll), 0.0F);
+TEST(Confidence, FallsWithEachThingThatSpeaksAgainstTheTraversal) {
+  Evidence start = clear_case();
+  start.tube.mask_recall = 0.97F;  // where the curve is steep
+  start.tube.mask_precision = 0.97F;
+  const float before = confidence(start, 3);
+  std::vector<Evidence> worse(8, start);
+  worse[0].tube.mask_recall = 0.9F;
+  worse[1].tube.mask_precision = 0.9F;
+  worse[2].tube.depth_agreement = 0.9F;
+  worse[3].tube.crossing_agreement = 0.9F;
+  worse[4].tube.least_sine = 0.1F;
+  worse[5].tube.bending = 3;
+  worse[6].tube.sharpest_bend = 0.6F;
+  worse[7].longest_gap = 8;
+  for (std::size_t i = 0; i < worse.size(); ++i) EXPECT_LT(confidence(worse[i], 3), before) << i;
+  EXPECT_LT(confidence(start, 0), before);
+}
+
+TEST(Confidence, FallsWhereDepthsDisagree) {
+  Evidence evidence = clear_case();
+  evidence.tube.depth_agreement = 0.8F;
+  evidence.tube.crossing_agreement = 0.5F;
+  EXPECT_LT(confidence(evidence, kAlone), confidence(clear_case(), kAlone));
+}
+
+TEST(Confidence, OfATraversalThatCouldNotBeDrawnIsNearZero) {
+  EXPECT_LT(confidence(Evidence{}, 1), 0.05F);
+}
+
+TEST(Confidence, IsZeroForWhatIsNotANumber) {
+  Evidence evidence = clear_case();
+  evidence.tube.bending = std::numeric_limits<float>::quiet_NaN();
+  EXPECT_EQ(confidence(evidence, kAlone), 0);
+  EXPECT_EQ(confidence(clear_case(), std::nan("")), 0);
 }
 
 TEST(NodeSigma, OfAPriorIsThePriorsOwn) {

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <utility>
+
 #include "support/wave_frame.hpp"
 
 namespace flowdlo {
@@ -29,6 +31,24 @@ TEST(AssignDraws, WithoutARunnerUpThereIsNothingToAssign) {
 
 class LiftAll : public ::testing::Test {
  protected:
+  /// The wave's own path with `score`, and the first `share` of it only.
+  [[nodiscard]] path::Path wave_path(double share, double score) const {
+    path::Path path = path::trace(frame_)->ranked.front();
+    const auto kept = static_cast<std::size_t>(share * static_cast<double>(path.points_px.size()));
+    path.points_px.resize(kept);
+    path.bridged.resize(kept);
+    path.score = score;
+    return path;
+  }
+  [[nodiscard]] std::vector<estimator::Hypothesis> lift(std::vector<path::Path> ranked) const {
+    path::Traversals paths;
+    paths.ranked = std::move(ranked);
+    paths.rope_width_px = 9;
+    auto lifted =
+        estimator::lift_all(paths, cloud_, visible_, frame_, weights::PriorKind::kRefined);
+    return lifted ? *std::move(lifted) : std::vector<estimator::Hypothesis>{};
+  }
+
   testing::WaveFrame wave_;
   Frame frame_ = wave_.frame();
   evidence::Cloud cloud_ = evidence::unproject(frame_);
@@ -71,6 +91,42 @@ TEST_F(LiftAll, KindOfPriorIsTheOneAskedFor) {
   ASSERT_TRUE(thesis && refined);
   // The refined prior lies behind the surface that the thesis' prior lies on.
   EXPECT_GT(refined->front().prior.nodes[20].z, thesis->front().prior.nodes[20].z);
+}
+
+TEST_F(LiftAll, APathThatLeavesTheMaskUnexplainedFallsBehind) {
+  const auto lifted = lift({wave_path(0.5, -1.0), wave_path(1.0, -1.5)});
+  ASSERT_EQ(lifted.size(), 2U);
+  EXPECT_EQ(lifted[0].path, 1U);
+  EXPECT_EQ(lifted[0].path_score, -1.5);
+  EXPECT_GT(lifted[0].score, lifted[1].score);
+  EXPECT_GT(estimator::lead(lifted), 0);
+}
+
+TEST_F(LiftAll, PathsThatExplainTheSameKeepTheirOrder) {
+  const auto lifted = lift({wave_path(1.0, -1.0), wave_path(1.0, -1.0), wave_path(1.0, -1.2)});
+  ASSERT_EQ(lifted.size(), 3U);
+  EXPECT_EQ(lifted[0].path, 0U);
+  EXPECT_EQ(lifted[1].path, 1U);
+  EXPECT_EQ(lifted[2].path, 2U);
+  EXPECT_EQ(estimator::lead(lifted), 0);
+}
+
+TEST_F(LiftAll, WhatTrailsHopelesslyIsNotLifted) {
+  const auto lifted = lift({wave_path(1.0, 0.0), wave_path(1.0, -estimator::kReach - 0.1)});
+  EXPECT_EQ(lifted.size(), 1U);
+  EXPECT_EQ(estimator::lead(lifted), estimator::kReach);
+}
+
+TEST_F(LiftAll, TheThesisPriorIsJudgedByTheRefinedOne) {
+  const auto paths = path::trace(frame_);
+  ASSERT_TRUE(paths);
+  const auto thesis =
+      estimator::lift_all(*paths, cloud_, visible_, frame_, weights::PriorKind::kThesis);
+  const auto refined =
+      estimator::lift_all(*paths, cloud_, visible_, frame_, weights::PriorKind::kRefined);
+  ASSERT_TRUE(thesis && refined);
+  EXPECT_EQ(thesis->front().score, refined->front().score);
+  EXPECT_GT(thesis->front().evidence.tube.mask_recall, 0.98F);
 }
 
 }  // namespace
