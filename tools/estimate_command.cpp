@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <string>
 #include <system_error>
@@ -145,6 +146,21 @@ void add_estimate_command(CLI::App& app, ExitCode& exit_code) {
   command->add_option("--threads", options->config.threads, "Of the CPU back end; 0: every core")
       ->capture_default_str()
       ->check(CLI::Range(0, 1024));
+  command
+      ->add_option("--prior", options->config.prior,
+                   "What the model refines: thesis (Eq. 3.1-3.7), refined (on the rope's axis), or "
+                   "auto, as the weights were trained")
+      ->transform(CLI::CheckedTransformer(
+          std::map<std::string, PriorChoice>{{"auto", PriorChoice::kOfWeights},
+                                             {"thesis", PriorChoice::kThesis},
+                                             {"refined", PriorChoice::kRefined}},
+          CLI::ignore_case))
+      ->type_name("KIND");
+  command
+      ->add_option("--rope-length", options->config.rope_length_m,
+                   "Metres, where the rope's length is known; 0: unknown")
+      ->capture_default_str()
+      ->check(CLI::NonNegativeNumber);
   command->add_flag("--tensors", options->tensors, "Write the model's tensors as .npy as well");
   command->add_flag("--quiet", options->quiet, "Print errors only");
   command->callback([options, &exit_code] { exit_code = run(*options); });

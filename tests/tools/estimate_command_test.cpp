@@ -58,6 +58,26 @@ TEST(EstimateCommand, NodesLieAtTheDepthOfTheRope) {
   for (const auto& node : *nodes) EXPECT_NEAR(node.z, 0.5F, 0.1F);
 }
 
+TEST(EstimateCommand, RefinedPriorLiesBehindTheSurfaceThatTheThesisPriorLiesOn) {
+  const TemporaryFolder scratch;
+  const auto frame = write_frame(scratch.path()).string();
+  const auto middle_depth = [&](const std::string& kind) {
+    EXPECT_EQ(run_estimate(scratch.path(), {frame, "--prior", kind}).exit_code, 0);
+    const auto text = test::read_text(results(scratch.path(), "rope") / "centerline.csv");
+    const auto nodes = frame::parse_centerline(text, "centerline.csv");
+    EXPECT_TRUE(nodes);
+    return nodes ? (*nodes)[kNodes / 2].z : 0.0F;
+  };
+  EXPECT_GT(middle_depth("refined"), middle_depth("thesis"));
+}
+
+TEST(EstimateCommand, UnknownKindOfPriorAndNegativeLengthAreWrongUsage) {
+  const TemporaryFolder scratch;
+  const auto frame = write_frame(scratch.path()).string();
+  EXPECT_EQ(run_estimate(scratch.path(), {frame, "--prior", "best"}).exit_code, 2);
+  EXPECT_EQ(run_estimate(scratch.path(), {frame, "--rope-length", "-1"}).exit_code, 2);
+}
+
 TEST(EstimateCommand, TensorsAreWrittenOnRequest) {
   const TemporaryFolder scratch;
   ASSERT_EQ(
