@@ -1,0 +1,72 @@
+// The shared library from outside: what it exports, and what it links.
+#include <gmock/gmock.h>
+
+#include "project/command.hpp"
+#include "project/tree.hpp"
+
+namespace flowdlo::project {
+namespace {
+
+using testing::Contains;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Not;
+
+const std::string kLibrary = FLOWDLO_SHARED_LIBRARY;
+const std::string kSanitize = FLOWDLO_SANITIZE;
+
+class SharedLibrary : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (kLibrary.empty() || !kSanitize.empty()) {
+      GTEST_SKIP() << "flowdlo is static or sanitized in this build";
+    }
+    if (!has_program("nm") || !has_program("readelf")) {
+      GTEST_SKIP() << "nm and readelf are not installed";
+    }
+  }
+
+  /// Demangled names of the dynamic symbols that the library defines.
+  static std::vector<std::string> exports() {
+    const auto names = run("nm -D -C --defined-only '" + kLibrary + "' | cut -d' ' -f3-");
+    return lines_of(names.output);
+  }
+};
+
+bool is_ours(std::string name) {
+  for (const std::string prefix : {"typeinfo for ", "typeinfo name for ", "vtable for "}) {
+    if (name.starts_with(prefix)) {
+      name.erase(0, prefix.size());
+    }
+  }
+  return name.starts_with("flowdlo::");
+}
+
+TEST_F(SharedLibrary, ExportsTheEstimator) {
+  EXPECT_THAT(exports(), Contains(HasSubstr("flowdlo::Estimator::create")));
+}
+
+TEST_F(SharedLibrary, ExportsNothingButItsOwnNames) {
+  auto foreign = exports();
+  std::erase_if(foreign, is_ours);
+  EXPECT_THAT(foreign, IsEmpty());
+}
+
+TEST_F(SharedLibrary, ExportsNothingOfItsRooms) {
+  auto inner = exports();
+  std::erase_if(inner, [](const auto& name) {
+    const auto first = name.find("flowdlo::") + 9;
+    const char initial = first < name.size() ? name[first] : 'A';
+    const auto scope = name.find("::", first);
+    const auto parenthesis = name.find('(', first);
+    return !(initial >= 'a' && initial <= 'z' && scope < parenthesis);  // flowdlo::room::thing(
+  });
+  EXPECT_THAT(inner, IsEmpty());
+}
+
+TEST_F(SharedLibrary, OpensTheVulkanLoaderInsteadOfLinkingIt) {
+  EXPECT_THAT(run("readelf -d '" + kLibrary + "'").output, Not(HasSubstr("libvulkan")));
+}
+
+}  // namespace
+}  // namespace flowdlo::project

@@ -1,0 +1,50 @@
+// include/flowdlo/ asks nothing of its reader but the standard library.
+#include <gmock/gmock.h>
+
+#include <regex>
+
+#include "project/include_rules.hpp"
+#include "project/tree.hpp"
+
+namespace flowdlo::project {
+namespace {
+
+using testing::IsEmpty;
+using testing::Not;
+
+std::vector<std::string> public_headers() {
+  auto files = project_files();
+  std::erase_if(files, [](const auto& path) { return !path.starts_with("include/"); });
+  return files;
+}
+
+TEST(PublicHeaders, IncludeOnlyTheStandardLibraryAndEachOther) {
+  std::vector<std::string> others;
+  for (const auto& header : public_headers()) {
+    for (const auto& include : includes_of(read(header))) {
+      const bool standard =
+          include.angled && include.target.find_first_of("/.") == std::string::npos;
+      if (!standard && !include.target.starts_with("flowdlo/")) {
+        others.push_back(header + ": " + include.target);
+      }
+    }
+  }
+  EXPECT_THAT(public_headers(), Not(IsEmpty()));
+  EXPECT_THAT(others, IsEmpty());
+}
+
+TEST(PublicHeaders, NameNoThirdPartyType) {
+  const std::regex foreign(
+      R"(\b(Vk[A-Z]\w*|vk[A-Z]\w*|(vk|cv|Eigen|flatbuffers|nlohmann|fmt|tbb|oneapi|CLI)::))");
+  std::vector<std::string> named;
+  for (const auto& header : public_headers()) {
+    const auto content = read(header);
+    if (std::smatch match; std::regex_search(content, match, foreign)) {
+      named.push_back(header + ": " + match.str());
+    }
+  }
+  EXPECT_THAT(named, IsEmpty());
+}
+
+}  // namespace
+}  // namespace flowdlo::project
