@@ -35,7 +35,7 @@ TEST(OpenDevice, FindsADeviceByItsUuidWithOrWithoutDashes) {
   FLOWDLO_NEEDS_DEVICE();
   std::string uuid = report(*devices().front()).uuid;
   ASSERT_TRUE(open_device({.wanted = uuid}));
-  for (const std::size_t at : {8U, 13U, 18U, 23U}) uuid.insert(at, "-");
+  for (const std::size_t at : {8U, 13U, 18U, 23U}) uuid.insert(at, 1, '-');
   const auto device = open_device({.wanted = uuid});
   ASSERT_TRUE(device) << device.error().message;
   EXPECT_EQ(report(**device).uuid, report(*devices().front()).uuid);
