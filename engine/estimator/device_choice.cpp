@@ -15,23 +15,9 @@ namespace {
 
 #ifdef FLOWDLO_WITH_VULKAN
 
-/// Smaller is better; CPU drivers and unknown kinds are no real GPUs.
-int rank(DeviceKind kind) {
-  switch (kind) {
-    case DeviceKind::kDiscreteGpu:
-      return 0;
-    case DeviceKind::kIntegratedGpu:
-      return 1;
-    case DeviceKind::kVirtualGpu:
-      return 2;
-    case DeviceKind::kCpu:
-    case DeviceKind::kOther:
-      return 3;
-  }
-  return 3;
+bool is_real_gpu(const DeviceReport& report) {
+  return vulkan::preference(report.kind) <= vulkan::preference(DeviceKind::kVirtualGpu);
 }
-
-bool is_real_gpu(const DeviceReport& report) { return rank(report.kind) < 3; }
 
 /// Config::device_timeout_ms, where it is left to us: a hung device must not hold a robot for long,
 /// and a slow one must not be called lost.
@@ -61,9 +47,10 @@ std::vector<DeviceReport> real_gpus(std::vector<DeviceReport> reports) {
   std::erase_if(reports, [](const DeviceReport& report) {
     return !is_real_gpu(report) || !report.lacks.empty();
   });
-  std::stable_sort(
-      reports.begin(), reports.end(),
-      [](const DeviceReport& a, const DeviceReport& b) { return rank(a.kind) < rank(b.kind); });
+  std::stable_sort(reports.begin(), reports.end(),
+                   [](const DeviceReport& a, const DeviceReport& b) {
+                     return vulkan::preference(a.kind) < vulkan::preference(b.kind);
+                   });
   return reports;
 }
 

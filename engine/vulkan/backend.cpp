@@ -10,23 +10,6 @@
 namespace flowdlo::vulkan {
 namespace {
 
-/// GPUs first; equals stay in the loader's order.
-int rank(DeviceKind kind) {
-  switch (kind) {
-    case DeviceKind::kDiscreteGpu:
-      return 0;
-    case DeviceKind::kIntegratedGpu:
-      return 1;
-    case DeviceKind::kVirtualGpu:
-      return 2;
-    case DeviceKind::kOther:
-      return 3;
-    case DeviceKind::kCpu:
-      return 4;
-  }
-  return 4;
-}
-
 std::string lower(std::string_view text) {
   std::string result(text);
   std::transform(result.begin(), result.end(), result.begin(),
@@ -80,6 +63,22 @@ Error none_usable(const std::vector<PhysicalDevice>& devices, const Selection& s
 
 }  // namespace
 
+int preference(DeviceKind kind) {
+  switch (kind) {
+    case DeviceKind::kDiscreteGpu:
+      return 0;
+    case DeviceKind::kIntegratedGpu:
+      return 1;
+    case DeviceKind::kVirtualGpu:
+      return 2;
+    case DeviceKind::kOther:
+      return 3;
+    case DeviceKind::kCpu:
+      return 4;
+  }
+  return 4;
+}
+
 Survey survey() {
   Survey result;
   const auto instance = Instance::create(false);
@@ -101,7 +100,8 @@ Result<std::shared_ptr<Device>> open_device(const Selection& selection) {
   const PhysicalDevice* best = nullptr;
   for (const PhysicalDevice& device : devices) {
     if (!objection(device, selection).empty()) continue;
-    if (best == nullptr || rank(device.report.kind) < rank(best->report.kind)) best = &device;
+    if (best == nullptr || preference(device.report.kind) < preference(best->report.kind))
+      best = &device;
   }
   if (best == nullptr) return none_usable(devices, selection);
   return Device::open(*std::move(instance), *best);

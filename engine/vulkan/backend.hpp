@@ -32,6 +32,9 @@ struct Survey {
 /// Every Vulkan device with what it lacks. Never fails: no Vulkan, no devices.
 [[nodiscard]] Survey survey();
 
+/// Order of preference, 0 first: discrete, integrated, virtual GPUs, then others, CPU drivers last.
+[[nodiscard]] int preference(DeviceKind kind);
+
 /// Opens the best device that fits. Fails with kNoDevice and one sentence a device. Devices are
 /// independent of one another: each has its own instance.
 [[nodiscard]] Result<std::shared_ptr<Device>> open_device(const Selection& selection);
