@@ -8,6 +8,7 @@
 #include "bench_command.hpp"
 #include "devices_command.hpp"
 #include "estimate_command.hpp"
+#include "eval_command.hpp"
 #include "exit_code.hpp"
 #include "flowdlo/version.hpp"
 #include "weights_command.hpp"
@@ -23,6 +24,7 @@ int main(int argc, char** argv) {
   add_devices_command(app);
   add_weights_command(app, exit_code);
   add_bench_command(app, exit_code);
+  add_eval_command(app, exit_code);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& end) {  // --help and --version come this way as well
