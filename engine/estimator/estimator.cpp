@@ -4,40 +4,24 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <exception>
 #include <vector>
 
+#include "estimator/conditions.hpp"
 #include "estimator/confidence.hpp"
 #include "estimator/device_choice.hpp"
-#include "estimator/hypotheses.hpp"
+#include "estimator/stopwatch.hpp"
 #include "estimator/tensors.hpp"
 #include "estimator/weights_location.hpp"
 #include "evidence/mask_field.hpp"
-#include "evidence/visible_points.hpp"
 #include "flow/sampler.hpp"
 #include "gate/gate.hpp"
-#include "path/path.hpp"
 #include "prior/prior.hpp"
 #include "weights/weights.hpp"
 
 namespace flowdlo {
 namespace {
-
-/// Adds the time since the last lap to one of the caller's figures.
-class Stopwatch {
- public:
-  void lap(double& total_ms) {
-    const auto now = Clock::now();
-    total_ms += std::chrono::duration<double, std::milli>(now - last_).count();
-    last_ = now;
-  }
-
- private:
-  using Clock = std::chrono::steady_clock;
-  Clock::time_point last_ = Clock::now();
-};
 
 Result<void> check(const Config& config) {
   std::string faults;
@@ -74,12 +58,6 @@ auto guarded(const char* who, const Work& work) -> decltype(work()) {
         ErrorCode::kInternal,
         fmt::format("{}: expected no exception, got \"{}\"; please report it", who, thrown.what())};
   }
-}
-
-Error no_evidence() {
-  return {ErrorCode::kNoEvidence,
-          "Frame: expected depth on the mask, got no mask pixel with a depth above 1e-6 m; check "
-          "the mask, and that depth is in metres and aligned to it"};
 }
 
 /// A rope rarely covers more of an image than this; a denser mask makes the sampler grow once.
@@ -194,27 +172,20 @@ Estimate Estimator::Impl::conclude(const std::vector<estimator::Hypothesis>& hyp
 Result<Estimate> Estimator::Impl::estimate(const Frame& frame, Tensors* tensors) {
   if (auto valid = validate(frame); !valid) return valid.error();
   Timings timings;
-  Stopwatch total;
-  Stopwatch stage;
+  estimator::Stopwatch total;
+  const auto conditions =
+      estimator::gather(frame, config.rope_length_m, prior_kind(), timings);  // Sec. 3.2, 3.3
+  if (!conditions) return conditions.error();
+  const auto& hypotheses = conditions->hypotheses;
 
-  const auto cloud = evidence::unproject(frame);  // Sec. 3.2
-  if (cloud.points_cam.empty()) return no_evidence();
-  const auto visible = evidence::visible_points(cloud);
-  stage.lap(timings.evidence_ms);
-
-  const auto paths = path::trace(frame, {.rope_length_m = config.rope_length_m});  // Sec. 3.3
-  stage.lap(timings.path_ms);
-  if (!paths) return paths.error();
-
-  const auto hypotheses = estimator::lift_all(*paths, cloud, visible, frame, prior_kind());
-  if (!hypotheses) return hypotheses.error();
-  const float margin = estimator::margin(estimator::lead(*hypotheses));
+  estimator::Stopwatch stage;
+  const float margin = estimator::margin(estimator::lead(hypotheses));
   const auto assigned =
-      estimator::assign_draws(static_cast<int>(hypotheses->size()), margin, config.draws);
+      estimator::assign_draws(static_cast<int>(hypotheses.size()), margin, config.draws);
   std::vector<prior::Prior> draw_priors;
   std::vector<Centerline> draw_prior_nodes;
   for (const int hypothesis : assigned) {
-    draw_priors.push_back((*hypotheses)[static_cast<std::size_t>(hypothesis)].prior);
+    draw_priors.push_back(hypotheses[static_cast<std::size_t>(hypothesis)].prior);
     draw_prior_nodes.push_back(draw_priors.back().nodes);
   }
   stage.lap(timings.prior_ms);
@@ -223,23 +194,23 @@ Result<Estimate> Estimator::Impl::estimate(const Frame& frame, Tensors* tensors)
   stage.lap(timings.mask_field_ms);
 
   const auto prediction = sample(  // Eq. (3.26)-(3.29)
-      {.frame = frame, .cloud = cloud, .field = field, .draw_priors = draw_priors});
+      {.frame = frame, .cloud = conditions->cloud, .field = field, .draw_priors = draw_priors});
   if (!prediction) return prediction.error();
   timings.device_ms = sampler.stage_times_ms();
   stage.lap(timings.model_ms);
 
   const gate::DilatedMask mask(frame);
-  auto verdict = gate::choose(prediction->draws, draw_prior_nodes, hypotheses->front().prior.nodes,
+  auto verdict = gate::choose(prediction->draws, draw_prior_nodes, hypotheses.front().prior.nodes,
                               mask, frame.intrinsics);  // Eq. (3.30)-(3.33)
-  Estimate estimate = conclude(*hypotheses, *prediction, std::move(verdict), assigned, mask, frame);
+  Estimate estimate = conclude(hypotheses, *prediction, std::move(verdict), assigned, mask, frame);
   stage.lap(timings.gate_ms);
   total.lap(timings.total_ms);
   estimate.timings = std::move(timings);
 
   if (tensors != nullptr) {
-    *tensors =
-        estimator::collect_tensors(sampler.source(), paths->ranked[hypotheses->front().path],
-                                   hypotheses->front().prior, draw_priors, *prediction, field);
+    *tensors = estimator::collect_tensors(
+        sampler.source(), conditions->paths.ranked[hypotheses.front().path],
+        hypotheses.front().prior, draw_priors, *prediction, field);
   }
   return estimate;
 }

@@ -1,86 +1,18 @@
 #include "reference/mask_features.hpp"
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-
 namespace flowdlo::reference {
-namespace {
-
-constexpr float kNearestDepth_m = 0.02F;    // spec section 6, feature 6
-constexpr float kFeatureWidth_px = 640.0F;  // distances are pixels of an image this wide
-constexpr float kFeatureScale_px = 100.0F;  // ... divided by this
-constexpr float kFeatureLimit = 3.0F;       // ... and clamped
-constexpr float kResidualLimit_m = 0.2F;    // Eq. (3.16)
-constexpr float kResidualNear_m = 0.05F;    // Sec. 3.4, below Eq. (3.16)
-constexpr float kResidualFar_m = 0.5F;
-
-/// The four channels at half-resolution position (u, v), clamped to the field's border.
-std::array<float, 4> bilinear(std::span<const float> field, int width, int height, float u,
-                              float v) {
-  // fmin and fmax, unlike clamp, turn a coordinate that is not a number into a border's.
-  const float u_in = std::fmax(std::fmin(u, static_cast<float>(width - 1)), 0.0F);
-  const float v_in = std::fmax(std::fmin(v, static_cast<float>(height - 1)), 0.0F);
-  const int left = std::min(static_cast<int>(u_in), std::max(width - 2, 0));
-  const int top = std::min(static_cast<int>(v_in), std::max(height - 2, 0));
-  const int right = std::min(left + 1, width - 1);
-  const int bottom = std::min(top + 1, height - 1);
-  const float alpha = u_in - static_cast<float>(left);
-  const float beta = v_in - static_cast<float>(top);
-  std::array<float, 4> value{};
-  for (int channel = 0; channel < 4; ++channel) {
-    const auto at = [&](int row, int column) {
-      return field[(static_cast<std::size_t>(row) * width + column) * 4 + channel];
-    };
-    const float upper = at(top, left) + alpha * (at(top, right) - at(top, left));
-    const float lower = at(bottom, left) + alpha * (at(bottom, right) - at(bottom, left));
-    value[static_cast<std::size_t>(channel)] = upper + beta * (lower - upper);
-  }
-  return value;
-}
-
-}  // namespace
 
 void mask_features(std::span<const float> state, std::span<const float> norm,
                    const ops::FrameParams& params, std::span<const float> field,
                    std::span<const float> depth, std::span<float> out) {
-  const int field_width = static_cast<int>(params.field_width);
-  const int field_height = static_cast<int>(params.field_height);
-  const float to_feature = kFeatureWidth_px / params.field_width / kFeatureScale_px;
-
-  for (std::size_t row = 0; row * 4 < state.size(); ++row) {
-    const float x = norm[3] * state[row * 4 + 0] + norm[0];
-    const float y = norm[3] * state[row * 4 + 1] + norm[1];
-    const float z = norm[3] * state[row * 4 + 2] + norm[2];
-    const std::span<float> phi = out.subspan(row * 8, 8);
-    std::fill(phi.begin(), phi.end(), 0.0F);
-    if (!(z > kNearestDepth_m)) continue;
-
-    const float u = params.fx * x / z + params.cx;
-    const float v = params.fy * y / z + params.cy;
-    const bool inside =
-        u > -0.5F && u < params.width - 0.5F && v > -0.5F && v < params.height - 0.5F;
-    const auto read = bilinear(field, field_width, field_height,
-                               (u + 0.5F) * params.field_width / params.width - 0.5F,
-                               (v + 0.5F) * params.field_height / params.height - 0.5F);
-    phi[0] = read[0];
-    phi[1] = read[1];
-    phi[2] = std::min(std::sqrt(read[2] * read[2] + read[3] * read[3]) * to_feature, kFeatureLimit);
-    phi[3] = std::clamp(read[2] * to_feature, -kFeatureLimit, kFeatureLimit);
-    phi[4] = std::clamp(read[3] * to_feature, -kFeatureLimit, kFeatureLimit);
-    phi[5] = inside ? 1.0F : 0.0F;
-    if (depth.empty() || !inside) continue;
-
-    const int column =
-        std::clamp(static_cast<int>(std::floor(u + 0.5F)), 0, static_cast<int>(params.width) - 1);
-    const int line =
-        std::clamp(static_cast<int>(std::floor(v + 0.5F)), 0, static_cast<int>(params.height) - 1);
-    const float seen =
-        depth[static_cast<std::size_t>(line) * static_cast<std::size_t>(params.width) + column];
-    if (!(seen >= kResidualNear_m && seen <= kResidualFar_m)) continue;
-    phi[6] = std::clamp(seen - z, -kResidualLimit_m, kResidualLimit_m) / kResidualLimit_m;
-    phi[7] = 1.0F;  // Eq. (3.16)
-  }
+  const auto width = static_cast<std::size_t>(params.field_width);
+  const auto texel = [&](int row, int column) {
+    const float* value =
+        field.data() +
+        (static_cast<std::size_t>(row) * width + static_cast<std::size_t>(column)) * 4;
+    return std::array<float, 4>{value[0], value[1], value[2], value[3]};
+  };
+  mask_features_of(state, norm, params, texel, depth, out);
 }
 
 }  // namespace flowdlo::reference
