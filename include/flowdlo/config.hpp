@@ -38,7 +38,7 @@ struct Config {
   /// A frame that takes longer on a Vulkan device is kDeviceLost. 0: 10 s for up to 40 draws x
   /// steps and in proportion beyond, six times that on a CPU driver.
   int device_timeout_ms = 0;
-  bool validation = false;        ///< Vulkan's validation layers, where installed; slow
+  bool validation = false;  ///< Vulkan's validation layers, where installed; slow
 };
 
 }  // namespace flowdlo
