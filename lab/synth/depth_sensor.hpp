@@ -1,0 +1,20 @@
+// DepthSensor: what a depth camera reports of an ideal picture.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "synth/faults.hpp"
+#include "synth/tracer.hpp"
+
+namespace flowdlo::synth {
+
+/// Depth is a whole number of these: a frame on disk and in memory are the same.
+inline constexpr double kDepthScale_m = 1.0e-4;
+
+/// [height, width], metres, 0: none.
+[[nodiscard]] std::vector<float> measured_depth(const View& view, const Picture& ideal,
+                                                double radius_m, const DepthFaults& faults,
+                                                std::uint32_t seed);
+
+}  // namespace flowdlo::synth
