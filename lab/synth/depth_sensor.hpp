@@ -5,12 +5,10 @@
 #include <vector>
 
 #include "synth/faults.hpp"
+#include "synth/synthetic_frame.hpp"
 #include "synth/tracer.hpp"
 
 namespace flowdlo::synth {
-
-/// Depth is a whole number of these: a frame on disk and in memory are the same.
-inline constexpr double kDepthScale_m = 1.0e-4;
 
 /// [height, width], metres, 0: none.
 [[nodiscard]] std::vector<float> measured_depth(const View& view, const Picture& ideal,

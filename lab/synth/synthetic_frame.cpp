@@ -33,13 +33,14 @@ struct Stage {
   std::vector<Thing> things;
 };
 
-std::string_view wide_scenario(Dice& dice) {
+std::string_view scenario_of(const SceneKey& key) {
+  if (key.split == Split::kThesis) return thesis_group(key.part, key.index);
+  Dice dice(key, Use::kScenario);
   return kWideScenarios[dice.pick({14, 14, 15, 9, 13, 9, 9, 10, 7})];
 }
 
-bool set_up_thesis(const SceneKey& key, Dice& ropes, Dice& views, Stage& stage) {
-  const auto group = thesis_group(key.part, key.index);
-  auto rope = try_thesis_rope(group, ropes);
+bool set_up_thesis(std::string_view scenario, Dice& ropes, Dice& views, Stage& stage) {
+  auto rope = try_thesis_rope(scenario, ropes);
   if (!rope) return false;
   auto view = try_thesis_view(*rope, views);
   if (!view) return false;
@@ -83,20 +84,24 @@ bool shows_enough(const Stage& stage, const Picture& picture) {
          static_cast<double>(visible) >= kLeastVisible * static_cast<double>(seen.size());
 }
 
-Error bad_index(Split split, Part part, std::uint64_t index, std::uint64_t count) {
-  return {ErrorCode::kBadInput, fmt::format("make_frame: index: expected below {} ({} {}), got {}",
-                                            count, name_of(split), name_of(part), index)};
+Result<void> check(Split split, Part part, std::uint64_t index, int frame) {
+  const std::uint64_t count = split == Split::kThesis ? scene_count(split, part) : kMostScenes;
+  std::string faults;
+  if (index >= count) {
+    faults = fmt::format("make_frame: index: expected below {} ({} {}), got {}", count,
+                         name_of(split), name_of(part), index);
+  }
+  if (frame < 0) {
+    faults += fmt::format("{}make_frame: render.frame: expected 0 or more, got {}",
+                          faults.empty() ? "" : "\n", frame);
+  }
+  if (faults.empty()) return {};
+  return Error{ErrorCode::kBadInput, faults};
 }
 
-Meta meta_of(const SceneKey& key, const Stage& stage, const Material& material, int frame) {
+Meta identity_of(const SceneKey& key, std::string_view scenario, int frame) {
   Meta meta;
-  meta.scenario = stage.rope.scenario;
-  meta.material = material.name;
-  meta.band = material.band;
-  meta.hanging = stage.rope.hanging;
-  meta.camera = stage.view.sensor->name;
-  meta.distance_m = stage.view.distance_m;
-  meta.tilt_deg = stage.view.tilt_rad * 180 / std::numbers::pi;
+  meta.scenario = scenario;
   meta.split = name_of(key.split);
   meta.part = name_of(key.part);
   meta.seed = key.seed;
@@ -105,10 +110,20 @@ Meta meta_of(const SceneKey& key, const Stage& stage, const Material& material, 
   return meta;
 }
 
+void describe(const Stage& stage, const Material& material, Meta& meta) {
+  meta.material = material.name;
+  meta.band = material.band;
+  meta.hanging = stage.rope.hanging;
+  meta.camera = stage.view.sensor->name;
+  meta.distance_m = stage.view.distance_m;
+  meta.tilt_deg = stage.view.tilt_rad * 180 / std::numbers::pi;
+}
+
 // A scene of a key: the rope, its view and things, and the ideal picture of it.
 class Scene {
  public:
-  explicit Scene(const SceneKey& key) : key_(key), look_(key, Use::kLook) {}
+  Scene(const SceneKey& key, std::string_view scenario)
+      : key_(key), look_(key, Use::kLook), scenario_(scenario) {}
 
   Result<void> set_up();
   [[nodiscard]] SyntheticFrame taken(const Render& render) const;
@@ -129,7 +144,7 @@ class Scene {
 Result<bool> Scene::stage_once(Dice& ropes, Dice& views, Dice& dice) {
   const bool wide = key_.split == Split::kWide;
   const bool ready = wide ? set_up_wide(scenario_, ropes, views, stage_)
-                          : set_up_thesis(key_, ropes, views, stage_);
+                          : set_up_thesis(scenario_, ropes, views, stage_);
   if (!ready) return false;
   stage_.faults = {};
   if (wide) stage_.faults = draw_faults(stage_.rope, stage_.view, material_->dark, dice);
@@ -150,7 +165,6 @@ Result<void> Scene::set_up() {
   Dice ropes(key_, Use::kRope);
   Dice views(key_, Use::kView);
   Dice things(key_, Use::kThings);
-  if (key_.split == Split::kWide) scenario_ = wide_scenario(ropes);
   for (int k = 0; k < kAttempts; ++k) {
     const auto done = stage_once(ropes, views, things);
     if (!done) return done.error();
@@ -167,7 +181,9 @@ SyntheticFrame Scene::taken(const Render& render) const {
   const View& view = stage_.view;
   SyntheticFrame result;
   FrameFolder& folder = result.folder;
-  folder.name = fmt::format("{:06}_{:03}", key_.index, render.frame);
+  result.meta = identity_of(key_, scenario_, render.frame);
+  describe(stage_, *material_, result.meta);
+  folder.name = folder_name(result.meta);
   folder.width = view.sensor->width;
   folder.height = view.sensor->height;
   folder.intrinsics = view.camera;
@@ -180,7 +196,6 @@ SyntheticFrame Scene::taken(const Render& render) const {
     folder.color_bgr = colored(view, *tracer_, picture_, stage_.things, *material_,
                                stage_.rope.radius_m, key_.split == Split::kWide, light);
   }
-  result.meta = meta_of(key_, stage_, *material_, render.frame);
   find(view, stage_.rope, picture_, folder.depth_m, folder.mask, result.meta);
   note(stage_.faults, stage_.things, picture_, folder.depth_m, folder.mask, result.meta);
   return result;
@@ -188,15 +203,28 @@ SyntheticFrame Scene::taken(const Render& render) const {
 
 }  // namespace
 
+std::string folder_name(const Meta& meta) {
+  const std::string scene = fmt::format("{:06}_{}", meta.index, meta.scenario);
+  return meta.frame == 0 ? scene : fmt::format("{}_{:03}", scene, meta.frame);
+}
+
+Result<std::string_view> scenario_of(Split split, Part part, std::uint64_t seed,
+                                     std::uint64_t index) {
+  if (const auto good = check(split, part, index, 0); !good) return good.error();
+  return scenario_of(SceneKey{split, part, seed, index});
+}
+
+Result<Meta> identity(Split split, Part part, std::uint64_t seed, std::uint64_t index, int frame) {
+  if (const auto good = check(split, part, index, frame); !good) return good.error();
+  const SceneKey key{split, part, seed, index};
+  return identity_of(key, scenario_of(key), frame);
+}
+
 Result<SyntheticFrame> make_frame(Split split, Part part, std::uint64_t seed, std::uint64_t index,
                                   const Render& render) {
-  const std::uint64_t count = split == Split::kThesis ? scene_count(split, part) : kMostScenes;
-  if (index >= count) return bad_index(split, part, index, count);
-  if (render.frame < 0) {
-    return Error{ErrorCode::kBadInput,
-                 fmt::format("make_frame: render.frame: expected 0 or more, got {}", render.frame)};
-  }
-  Scene scene({split, part, seed, index});
+  if (const auto good = check(split, part, index, render.frame); !good) return good.error();
+  const SceneKey key{split, part, seed, index};
+  Scene scene(key, scenario_of(key));
   if (const auto ready = scene.set_up(); !ready) return ready.error();
   return scene.taken(render);
 }

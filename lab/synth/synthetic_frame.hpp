@@ -101,8 +101,11 @@ struct Meta {
   }
 };
 
-/// One name and value a field of `meta`, flattened ("defects.gap"), as meta.json has them.
+/// Every field, and hard() and easy(), as meta.json has them.
 [[nodiscard]] std::string meta_json(const Meta& meta);
+
+/// "000012_coil", and "_003" behind it for any frame but 0. From scenario, index and frame alone.
+[[nodiscard]] std::string folder_name(const Meta& meta);
 
 struct SyntheticFrame {
   FrameFolder folder;  ///< owns the pixels; its truth is always set
@@ -126,6 +129,17 @@ struct Render {
 
 /// Every name that Meta::scenario can have, in the tables' order.
 [[nodiscard]] std::span<const std::string_view> scenarios(Split split);
+
+/// Depth is a whole number of these, in memory as on disk: write depth.png with this scale.
+inline constexpr double kDepthScale_m = 1.0e-4;
+
+/// What a scene will show, without rendering it. Fails with kBadInput as make_frame() does.
+[[nodiscard]] Result<std::string_view> scenario_of(Split split, Part part, std::uint64_t seed,
+                                                   std::uint64_t index);
+
+/// A Meta of which split, part, seed, index, frame and scenario are set. Fails likewise.
+[[nodiscard]] Result<Meta> identity(Split split, Part part, std::uint64_t seed, std::uint64_t index,
+                                    int frame);
 
 /// Scene `index` of a part, the same on every call and thread. `seed` 0 gives the split that the
 /// tables use. Fails with kBadInput beyond scene_count(), with kInternal when Embree fails.
