@@ -11,6 +11,7 @@
 #include "eval_command.hpp"
 #include "exit_code.hpp"
 #include "flowdlo/version.hpp"
+#include "synth_command.hpp"
 #include "weights_command.hpp"
 
 int main(int argc, char** argv) {
@@ -22,6 +23,7 @@ int main(int argc, char** argv) {
   auto exit_code = ExitCode::kDone;
   add_estimate_command(app, exit_code);
   add_devices_command(app);
+  add_synth_command(app, exit_code);
   add_weights_command(app, exit_code);
   add_bench_command(app, exit_code);
   add_eval_command(app, exit_code);
