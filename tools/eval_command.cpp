@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -11,9 +12,11 @@
 #include <utility>
 #include <vector>
 
+#include "eval/error_overlay.hpp"
 #include "eval/evaluator.hpp"
 #include "eval/plots.hpp"
 #include "eval/tables.hpp"
+#include "flowdlo/frame_folder.hpp"
 #include "frame/staged_files.hpp"
 #include "frame_list.hpp"
 #include "model_options.hpp"
@@ -28,6 +31,7 @@ struct EvalOptions {
   std::vector<fs::path> frames;
   fs::path out;
   Config config;
+  int worst = 0;
   bool quiet = false;
 };
 
@@ -74,6 +78,31 @@ Result<void> save(const fs::path& out, const std::string& tables,
   return staged.commit();
 }
 
+/// Pictures of the frames of the largest errors, DIR/worst/<frame name>.png.
+Result<void> draw_worst(const EvalOptions& options, const std::vector<FrameEntry>& frames,
+                        const std::vector<eval::Trial>& trials) {
+  std::vector<std::size_t> order;
+  for (std::size_t i = 0; i < trials.size(); ++i) {
+    if (trials[i].of("estimate") != nullptr) order.push_back(i);
+  }
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return trials[a].of("estimate")->either_index_m > trials[b].of("estimate")->either_index_m;
+  });
+  order.resize(std::min(order.size(), static_cast<std::size_t>(options.worst)));
+  std::error_code failure;
+  fs::create_directories(options.out / "worst", failure);
+  frame::StagedFiles staged;
+  for (const std::size_t i : order) {
+    const auto folder = load_frame_folder(frames[i].folder);
+    if (!folder) return folder.error();
+    const auto picture = eval::error_overlay_png(folder->frame(), trials[i].truth, trials[i].nodes);
+    if (!picture) return picture.error();
+    const auto file = options.out / "worst" / (trials[i].name + ".png");
+    if (auto done = staged.add(file, *picture); !done) return done;
+  }
+  return staged.commit();
+}
+
 ExitCode run(const EvalOptions& options) {
   const auto frames = list_frames(options.frames);
   if (!frames) return complain(frames.error(), ExitCode::kUsage);
@@ -83,6 +112,11 @@ ExitCode run(const EvalOptions& options) {
   const std::string tables = heading(options, *evaluator) + eval::tables_markdown(trials);
   if (const auto saved = save(options.out, tables, trials); !saved) {
     return complain(saved.error(), ExitCode::kFailed);
+  }
+  if (options.worst > 0) {
+    if (const auto drawn = draw_worst(options, *frames, trials); !drawn) {
+      return complain(drawn.error(), ExitCode::kFailed);
+    }
   }
   if (!options.quiet) fmt::print("{}", tables);
   return ExitCode::kDone;
@@ -99,6 +133,10 @@ void add_eval_command(CLI::App& app, ExitCode& exit_code) {
       ->required()
       ->type_name("DIR");
   add_model_options(*command, options->config);
+  command->add_option("--worst", options->worst, "Draw the N frames of the largest errors")
+      ->capture_default_str()
+      ->check(CLI::Range(0, 1000000))
+      ->type_name("N");
   command->add_flag("--quiet", options->quiet, "Print errors only");
   command->callback([options, &exit_code] { exit_code = run(*options); });
 }

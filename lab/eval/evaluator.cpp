@@ -36,13 +36,12 @@ void add_prior(Estimator& estimator, const Frame& frame, const Centerline& truth
   trial.methods[method] = mean_of({score(centerline(tensors.prior), truth)});
 }
 
-SigmaCoverage coverage_of(const Estimate& estimate, const Centerline& truth, bool flipped) {
-  const Centerline forward = canonical(truth);
-  const Centerline target = flipped ? reversed(forward) : forward;
+/// `truth` turned to the estimate's direction.
+SigmaCoverage coverage_of(const Estimate& estimate, const Centerline& truth) {
   SigmaCoverage coverage;
   for (std::size_t i = 0; i < kNodes; ++i) {
     const Point3& a = estimate.nodes[i];
-    const Point3& b = target[i];
+    const Point3& b = truth[i];
     const float off = std::hypot(a.x - b.x, a.y - b.y, a.z - b.z);
     coverage.one += off <= estimate.sigma_m[i] ? 1.0 / kNodes : 0;
     coverage.two += off <= 2 * estimate.sigma_m[i] ? 1.0 / kNodes : 0;
@@ -54,7 +53,8 @@ void add_scores(const Estimate& estimate, const Tensors& tensors, const Centerli
                 Trial& trial) {
   const Score returned = score(estimate.nodes, truth);
   trial.methods["estimate"] = mean_of({returned});
-  trial.sigma = coverage_of(estimate, truth, returned.flipped);
+  trial.truth = returned.flipped ? reversed(canonical(truth)) : canonical(truth);
+  trial.sigma = coverage_of(estimate, trial.truth);
   std::vector<Score> draws;
   Score best = score(centerline(tensors.prior), truth);
   const std::span<const float> predictions(tensors.prediction);
@@ -97,6 +97,7 @@ Trial Evaluator::run(const std::filesystem::path& path, const std::string& name)
     trial.failure = estimate.error().message;
     return trial;
   }
+  trial.nodes = estimate->nodes;
   trial.source = estimate->source;
   trial.draws = static_cast<int>(estimate->draws.size());
   for (const DrawReport& draw : estimate->draws) trial.accepted_draws += draw.accepted ? 1 : 0;

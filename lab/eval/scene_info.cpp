@@ -6,7 +6,6 @@
 #include <array>
 #include <fstream>
 #include <nlohmann/json.hpp>
-#include <string_view>
 #include <system_error>
 
 namespace flowdlo::eval {
@@ -15,7 +14,6 @@ namespace {
 constexpr std::array<const char*, 4> kHard{"gap", "touch", "coil", "depth_holes"};
 constexpr std::array<const char*, 4> kNotEasy{"hidden_end", "outside", "depth_turn",
                                               "black_or_shiny"};
-constexpr std::string_view kDefects = "defects.";
 
 Error bad(const std::filesystem::path& file, const std::string& what) {
   return {ErrorCode::kBadInput,
@@ -55,12 +53,15 @@ Result<SceneInfo> read_scene_info(const std::filesystem::path& folder) {
     if (!found->is_number_integer()) return bad(file, "expected a whole number for \"crossings\"");
     info.crossings = found->get<int>();
   }
-  for (const auto& [key, value] : json.items()) {
-    if (key.rfind(kDefects, 0) != 0) continue;
-    if (!value.is_boolean())
-      return bad(file, fmt::format("expected true or false for \"{}\"", key));
+  if (const auto found = json.find("defects"); found != json.end()) {
+    if (!found->is_object()) return bad(file, "expected an object for \"defects\"");
     info.described = true;
-    if (value.get<bool>()) info.defects.insert(key.substr(kDefects.size()));
+    for (const auto& [key, value] : found->items()) {
+      if (!value.is_boolean()) {
+        return bad(file, fmt::format("expected true or false for \"defects.{}\"", key));
+      }
+      if (value.get<bool>()) info.defects.insert(key);
+    }
   }
   return info;
 }

@@ -12,7 +12,7 @@ namespace flowdlo::eval {
 struct SceneInfo {
   std::string scenario = "unknown";
   std::string material = "unknown";
-  std::set<std::string> defects;  ///< names of the "defects.*" switches that are on
+  std::set<std::string> defects;  ///< names of the switches in "defects" that are on
   bool described = false;         ///< meta.json has defects: easy() and hard() mean something
   int crossings = 0;
 

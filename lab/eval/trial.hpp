@@ -41,6 +41,9 @@ struct Trial {
   /// (the best of draws and prior). A method that gave nothing is missing.
   std::map<std::string, Outcome> methods;
 
+  Centerline nodes{};  ///< the estimate
+  Centerline truth{};  ///< in the estimate's better direction; where `with_truth`
+
   Source source = Source::kPrior;
   int accepted_draws = 0;
   int draws = 0;

@@ -28,7 +28,7 @@ TEST(SceneInfo, FrameWithoutMetaIsUnknown) {
 TEST(SceneInfo, PlainSceneIsEasy) {
   const TemporaryFolder folder;
   const auto info = read(folder, R"({"scenario": "C-shape", "material": "red", "crossings": 0,
-                                     "defects.gap": false, "defects.mask_ragged": true})");
+                                     "defects": {"gap": false, "mask_ragged": true}})");
   ASSERT_TRUE(info);
   EXPECT_EQ(info->scenario, "C-shape");
   EXPECT_EQ(info->material, "red");
@@ -39,7 +39,7 @@ TEST(SceneInfo, PlainSceneIsEasy) {
 TEST(SceneInfo, GapTouchCoilAndHolesAreHard) {
   const TemporaryFolder folder;
   for (const char* defect : {"gap", "touch", "coil", "depth_holes"}) {
-    const auto text = std::string("{\"defects.") + defect + "\": true}";
+    const auto text = std::string("{\"defects\": {\"") + defect + "\": true}}";
     const auto info = read(folder, text.c_str());
     ASSERT_TRUE(info);
     EXPECT_TRUE(info->hard()) << defect;
@@ -49,7 +49,7 @@ TEST(SceneInfo, GapTouchCoilAndHolesAreHard) {
 
 TEST(SceneInfo, CrossingIsNeitherEasyNorHard) {
   const TemporaryFolder folder;
-  const auto info = read(folder, R"({"crossings": 1, "defects.gap": false})");
+  const auto info = read(folder, R"({"crossings": 1, "defects": {"gap": false}})");
   ASSERT_TRUE(info);
   EXPECT_FALSE(info->easy());
   EXPECT_FALSE(info->hard());
@@ -65,8 +65,8 @@ TEST(SceneInfo, BrokenFileIsNamed) {
 
 TEST(SceneInfo, WrongTypeNamesItsField) {
   const TemporaryFolder folder;
-  for (const char* text :
-       {R"({"scenario": 3})", R"({"crossings": "two"})", R"({"defects.gap": 1})"}) {
+  for (const char* text : {R"({"scenario": 3})", R"({"crossings": "two"})",
+                           R"({"defects": {"gap": 1}})", R"({"defects": 1})"}) {
     const auto info = read(folder, text);
     ASSERT_FALSE(info) << text;
     EXPECT_THAT(info.error().message, HasSubstr("expected")) << text;
