@@ -5,6 +5,7 @@
 #include <map>
 #include <utility>
 
+#include "path/cover.hpp"
 #include "path/crossings.hpp"
 #include "path/midline.hpp"
 
@@ -20,6 +21,7 @@ constexpr float kTipWidths = 5.0F;    // the stretch that tells what is usual
 constexpr float kDepthWidths = 3.0F;  // length over which a depth is fitted
 constexpr int kDepthSamples = 16;
 constexpr float kSlopeWidths = 2.0F;  // a slope over this length counts half
+constexpr float kCutWidths = 3.0F;    // how far ahead an occluder is looked for
 constexpr float kMaxSlope = 1.5F;     // metres of depth a metre sideways
 
 float at(const cv::Mat& image, const Vector2f& p) {
@@ -124,6 +126,7 @@ void measure_depth(const Points& points, const Region& region, const Frame& fram
 
 Strand make_strand(const Segment& segment, const Graph& graph, const Crossings& crossings,
                    const Region& region, const Frame& frame, const Strands& sizes) {
+  const Cover cover(region, frame, sizes.width_px);
   Strand strand;
   strand.ring = segment.ring();
   strand.covers_px = segment.length_px;
@@ -148,6 +151,8 @@ Strand make_strand(const Segment& segment, const Graph& graph, const Crossings& 
     end.point_px = points.front();
     end.outward = direction_at_front(points, sizes.scale_px);
     measure_depth(points, region, frame, sizes.scale_px, end);
+    end.cut = cover.beyond(end.point_px, end.outward, end.depth_m, kCutWidths * sizes.scale_px) ==
+              Sight::kHidden;
     std::reverse(points.begin(), points.end());
   }
   strand.covers_px = std::max(0.0F, strand.covers_px);
