@@ -135,8 +135,7 @@ void draw_bond(const Strands& strands, const Region& region, const Cover& cover,
                const StrandEnd& from, const StrandEnd& to, Drawn& drawn) {
   const bool gap = from.tip() || to.tip() || from.crossing != to.crossing;
   if (gap) {
-    const GapCurve curve = gap_curve(from, to, cover, strands.scale_px, true);
-    for (const Vector2f& p : points_of(curve, from, to)) drawn.add(p, true);
+    for (const Vector2f& p : gap_points(from, to, cover, strands.scale_px)) drawn.add(p, true);
     return;
   }
   std::vector<int> way;

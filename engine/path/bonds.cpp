@@ -189,17 +189,16 @@ class Builder {
 
   void link(int a, int b, float extra) {
     if (a / 2 == b / 2) return;
-    const float cost = extra + gap_cost(strands_.end(a), strands_.end(b));
+    const float cost = extra + cost_across(strands_.end(a), strands_.end(b));
     if (cost < kMostGapCost) add(a, b, cost, true);
   }
 
-  [[nodiscard]] float gap_cost(const StrandEnd& a, const StrandEnd& b) const {
+  [[nodiscard]] float cost_across(const StrandEnd& a, const StrandEnd& b) const {
     const float scale = strands_.scale_px;
     const float straight = kGapStart + (a.point_px - b.point_px).norm() / (kGapWidths * scale);
     if (straight >= kMostGapCost) return straight;
-    const float cost = kGapStart + cost_of(gap_curve(a, b, cover_, scale, false), scale);
-    if (cost >= kMostGapCost) return cost;
-    return cost + depth_misfit(a, b, strands_.width_px, frame_.intrinsics.fx, true);
+    return kGapStart + gap_cost(a, b, cover_, scale) +
+           depth_misfit(a, b, strands_.width_px, frame_.intrinsics.fx, true);
   }
 
   const Strands& strands_;

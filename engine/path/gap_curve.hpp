@@ -1,4 +1,5 @@
-// Gap curve: how the rope runs from one strand's end to another's where no mask shows it.
+// Gap curve: how the rope may run from one strand's end to another's where no mask shows it. Of the
+// cubics that leave one end along its direction and enter the other against its own, the best.
 #pragma once
 
 #include <Eigen/Core>
@@ -9,25 +10,14 @@
 
 namespace flowdlo::path {
 
-/// Of the cubics that leave one end along its direction and enter the other against its own, the
-/// one that bends least and shows least before the background.
-struct GapCurve {
-  Eigen::Vector2f leaves_px{0, 0};  ///< derivative at `from`
-  Eigen::Vector2f enters_px{0, 0};  ///< and at `to`
-  float length_px = 0;
-  float bending = 0;  ///< energy times length: the squared turn of an arc
-  float open_px = 0;  ///< length where the sensor sees the background
-};
+/// What it takes to run from end to end, dimensionless: length, change of curvature, and most of
+/// all running where the sensor sees the background.
+[[nodiscard]] float gap_cost(const StrandEnd& from, const StrandEnd& to, const Cover& cover,
+                             float scale_px);
 
-/// `fine`: searched further, for drawing.
-[[nodiscard]] GapCurve gap_curve(const StrandEnd& from, const StrandEnd& to, const Cover& cover,
-                                 float scale_px, bool fine);
-
-/// What the curve costs as a link, dimensionless; less for what the ends themselves say.
-[[nodiscard]] float cost_of(const GapCurve& curve, float scale_px);
-
-/// Points about a pixel apart, both ends left out.
-[[nodiscard]] std::vector<Eigen::Vector2f> points_of(const GapCurve& curve, const StrandEnd& from,
-                                                     const StrandEnd& to);
+/// Points about a pixel apart on the curve that bends least for its length and keeps out of sight;
+/// both ends left out.
+[[nodiscard]] std::vector<Eigen::Vector2f> gap_points(const StrandEnd& from, const StrandEnd& to,
+                                                      const Cover& cover, float scale_px);
 
 }  // namespace flowdlo::path

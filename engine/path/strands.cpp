@@ -172,6 +172,7 @@ Strand make_strand(const Segment& segment, const Graph& graph, const Crossings& 
     }
     end.point_px = points.front();
     end.outward = direction_at_front(points, sizes.scale_px);
+    end.curvature = curvature_at_front(points, sizes.scale_px);
     measure_depth(points, region, frame, sizes.scale_px, end);
     end.cut = cover.beyond(end.point_px, end.outward, end.depth_m, kCutWidths * sizes.scale_px) ==
               Sight::kHidden;
