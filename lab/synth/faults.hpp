@@ -19,21 +19,22 @@ struct Stretch {
 
 struct DepthFaults {
   bool noise = false;
-  bool whole_mm = false;       ///< the sensor reports millimetres
-  double flying = 0;           ///< share of border pixels between rope and background
-  double dropout = 0;          ///< share of border pixels without depth
-  int holes = 0;               ///< round ones on the rope
-  std::vector<Stretch> lost;   ///< no depth at all
-  std::vector<Stretch> black;  ///< hardly any depth
-  std::vector<Stretch> shiny;  ///< no depth where the rope faces the camera
-  std::vector<Stretch> sunk;   ///< thin rope that takes on the background's depth
+  bool whole_mm = false;         ///< the sensor reports millimetres
+  double flying = 0;             ///< share of border pixels between rope and background
+  double dropout = 0;            ///< share of border pixels without depth
+  int holes = 0;                 ///< round ones on the rope
+  std::vector<Stretch> lost{};   ///< no depth at all
+  std::vector<Stretch> black{};  ///< hardly any depth
+  std::vector<Stretch> shiny{};  ///< no depth where the rope faces the camera
+  std::vector<Stretch> sunk{};   ///< thin rope that takes on the background's depth
 };
 
 struct MaskFaults {
-  int ragged_px = 0;  ///< reach of a frayed border, at 640 px of width
-  int shift_px = 0;   ///< dilated (1) or eroded (-1)
+  int ragged_px = 0;           ///< reach of a frayed border, at 640 px of width
+  bool frayed_inwards = true;  ///< false for a thin rope, which would fall apart
+  int shift_px = 0;            ///< dilated (1) or eroded (-1)
   int specks = 0;
-  std::vector<Stretch> gaps;
+  std::vector<Stretch> gaps{};
 };
 
 struct Faults {
@@ -44,7 +45,7 @@ struct Faults {
   bool clutter = false;
 };
 
-/// Of a scene of the wide split. Three scenes of ten have sensor noise only.
+/// Of a scene of the wide split. Two scenes of five have sensor noise only.
 [[nodiscard]] Faults draw_faults(const Rope& rope, const View& view, bool dark, Dice& dice);
 
 }  // namespace flowdlo::synth

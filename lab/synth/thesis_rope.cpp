@@ -1,5 +1,7 @@
 // The nine groups of Sec. 4.1.1. The thesis names them without measures; "complicated" is read as
 // strong changes of direction, stretches that stand up from the table, and many loops.
+#include <utility>
+
 #include "synth/flat_shape.hpp"
 #include "synth/laid_rope.hpp"
 #include "synth/rope.hpp"
@@ -17,8 +19,8 @@ struct Recipe {
 Recipe recipe_of(std::string_view scenario, Dice& dice) {
   const double turn_c = dice.uniform(1.8, 4.2);
   const double swing_s = dice.uniform(0.9, 1.7);
-  if (scenario == "C") return {0.3, 0.6, {.turn = turn_c}, false};
-  if (scenario == "S") return {0.3, 0.6, {.swing = swing_s}, false};
+  if (scenario == "C") return {0.3, 0.6, {.turn = turn_c, .wander = 0.4}, false};
+  if (scenario == "S") return {0.3, 0.6, {.swing = swing_s, .wander = 0.2}, false};
   if (scenario == "straight") return {0.2, 0.4, {.wander = 0.12}, false};
   if (scenario == "C-complicated") {
     return {0.35, 0.7, {.turn = turn_c, .wander = 0.4, .wiggle = 0.6}, true};
@@ -58,7 +60,11 @@ std::optional<Rope> try_thesis_rope(std::string_view scenario, Dice& dice) {
                       .arch_m = dice.uniform(0.01, 0.03)};
   auto curve = laid(*flat, gauge, laying, dice);
   if (!curve) return std::nullopt;
-  Rope rope{.scenario = scenario, .curve = std::move(*curve), .radius_m = gauge.radius_m};
+  Rope rope;
+  rope.scenario = scenario;
+  rope.curve = std::move(*curve);
+  rope.radius_m = gauge.radius_m;
+  rope.square_ends = dice.chance(0.5);
   if (!sound(rope)) return std::nullopt;
   return rope;
 }
