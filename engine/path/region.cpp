@@ -16,6 +16,8 @@ constexpr int kSpeckAreaPx = 12;            // below this no direction can be to
 constexpr float kSpeckWidths = 0.6F;        // components below this times width^2 are noise
 constexpr float kHoleSpecksWidths = 0.05F;  // holes below this times width^2 are noise
 constexpr float kHighlightWidths = 0.68F;   // filled half-width up to which a hole is a highlight
+constexpr float kNarrowShare = 0.75F;       // narrow parts below this share of the usual width
+constexpr float kStubbyWidths = 30.0F;      // strands beside each other, when shorter than this
 constexpr float kHighlightArea = 6.0F;      // and its area in width^2, at most
 
 cv::Rect bounding_box(const Frame& frame) {
@@ -99,12 +101,30 @@ Widths ridge_widths(const cv::Mat& distance) {
   return {width(usual), width(quantile(0.05, weight.size()))};
 }
 
+// The seams at the scale of the rope's width. Where all of the mask is short for its width, that
+// may be the width of two strands or three.
+cv::Mat seams_of(const Region& region, const Widths& widths, const Frame& frame) {
+  const auto at = [&](float usual_px, float narrow_px) {
+    return find_seams(region.mask, {region.offset_px, usual_px, narrow_px}, frame);
+  };
+  const float narrow_px = std::max(widths.narrow_px, 0.5F * widths.usual_px);  // borders fray
+  const auto area = static_cast<float>(cv::countNonZero(region.mask));
+  if (area > kStubbyWidths * widths.usual_px * widths.usual_px)
+    return at(widths.usual_px, widths.usual_px);
+  cv::Mat seams;
+  if (narrow_px < kNarrowShare * widths.usual_px) seams = at(narrow_px, narrow_px);
+  for (const float share : {1.0F, 0.5F, 0.33F}) {
+    if (seams.empty())
+      seams = at(share * widths.usual_px, std::min(share * widths.usual_px, narrow_px));
+  }
+  return seams;
+}
+
 // Cuts the mask along its seams; leaves the width that one strand has.
 void cut_seams(const Frame& frame, Region& region) {
   const Widths widths = ridge_widths(region.distance_px);
   region.width_px = widths.usual_px;
-  region.seams =
-      find_seams(region.mask, {region.offset_px, widths.usual_px, widths.narrow_px}, frame);
+  region.seams = seams_of(region, widths, frame);
   if (region.seams.empty()) return;
   region.mask.setTo(0, region.seams);
   region.distance_px = distance_of(region.mask);

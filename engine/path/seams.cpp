@@ -3,37 +3,29 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <numbers>
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
 #include "path/thinning.hpp"
+#include "path/valleys.hpp"
 
 namespace flowdlo::path {
 namespace {
 
 constexpr float kSlitWidths = 0.35F;   // slits of the mask up to this wide belong to a seam
-constexpr float kWideShare = 0.62F;    // distance to the edge, widths, that one strand never has
+constexpr float kWideShare = 0.56F;    // half a square that fits in two strands and not in one
 constexpr float kReachWidths = 0.6F;   // and how far from there a seam may run
-constexpr float kSmoothWidths = 0.1F;  // sigma of the depths' smoothing
-constexpr float kProbeWidths = 0.3F;   // from a valley to its sides
-constexpr int kDirections = 8;
-constexpr float kSlope = 0.75F;      // metres of depth a metre sideways; more is a step,
-constexpr float kStepWeight = 2.0F;  // which counts against a valley
-constexpr float kNoiseLow = 3.0F;    // a seam's least depth in sigmas,
-constexpr float kRadiiLow = 0.12F;   // and in radii of the rope;
-constexpr float kNoiseHigh = 5.0F;   // half of it is at least this deep
+constexpr float kExtentWidths = 4.5F;  // what holds a seam extends this far
+constexpr float kNoiseLow = 2.0F;      // a seam's least depth in sigmas,
+constexpr float kRadiiLow = 0.12F;     // and in radii of the rope;
+constexpr float kNoiseHigh = 3.5F;     // half of it is at least this deep
 constexpr float kRadiiHigh = 0.3F;
 constexpr float kShortestWidths = 6.0F;  // what a flat crossing leaves is shorter
+constexpr float kSpurWidths = 0.7F;      // a branch that leads nowhere is shorter
+constexpr float kRungWidths = 1.3F;      // and so is a shallow one from seam to seam
+constexpr float kTangentWidths = 0.5F;   // what tells a line's direction at its tip
+constexpr float kRunOutWidths = 0.6F;    // from there to the mask's edge
 constexpr float kSliverWidths = 0.3F;    // cut off between a seam and a slit
-constexpr float kLeastShare = 0.05F;     // of valid depths under the smoothing
-constexpr float kAbsent_m = 1e6F;        // stands for a depth that is missing
-
-struct Depths {
-  cv::Mat smooth_m;   // [h, w] f32, kAbsent_m outside of the mask
-  float noise_m = 0;  // of a single depth
-  float usual_m = 0;
-};
 
 cv::Mat square(int half) { return cv::Mat::ones(2 * half + 1, 2 * half + 1, CV_8U); }
 
@@ -42,115 +34,163 @@ void erode(const cv::Mat& from, cv::Mat& to, const cv::Mat& brush) {
   cv::erode(from, to, brush, {-1, -1}, 1, cv::BORDER_CONSTANT, cv::Scalar(0));
 }
 
-float median_of(std::vector<float>& values) {
-  if (values.empty()) return 0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
-// Depths inside of the mask, 0 where there are none.
-cv::Mat masked_depths(const cv::Mat& mask, cv::Point offset_px, const Frame& frame) {
-  cv::Mat depth = cv::Mat::zeros(mask.size(), CV_32F);
-  const int left = std::max(0, -offset_px.x);
-  const int right = std::min(mask.cols, frame.width - offset_px.x);
-  for (int v = 0; v < mask.rows; ++v) {
-    const int image_v = v + offset_px.y;
-    if (image_v < 0 || image_v >= frame.height) continue;
-    const std::uint8_t* lit = mask.ptr<std::uint8_t>(v);
-    const float* from = frame.depth_m.data() + static_cast<std::size_t>(image_v) * frame.width;
-    float* to = depth.ptr<float>(v);
-    for (int u = left; u < right; ++u) {
-      const float z = from[u + offset_px.x];
-      if (lit[u] != 0 && z > 1e-6F && z < kAbsent_m) to[u] = z;
+// Where `closed` is wider than one strand, for long enough to hold a seam; and what is near to
+// that. Empty when nothing is.
+cv::Mat wide_parts(const cv::Mat& closed, const SeamScale& scale) {
+  const cv::Mat strand = square(static_cast<int>(std::ceil(kWideShare * scale.narrow_px)));
+  cv::Mat wide;
+  erode(closed, wide, strand);
+  if (cv::countNonZero(wide) == 0) return {};
+  cv::dilate(wide, wide, strand);
+  cv::dilate(wide, wide, square(static_cast<int>(std::ceil(kReachWidths * scale.narrow_px))));
+  cv::Mat labels;
+  cv::Mat stats;
+  cv::Mat centroids;
+  const int count = cv::connectedComponentsWithStats(wide, labels, stats, centroids, 8, CV_32S);
+  bool any = false;
+  for (int i = 1; i < count; ++i) {
+    const cv::Rect box(stats.at<int>(i, cv::CC_STAT_LEFT), stats.at<int>(i, cv::CC_STAT_TOP),
+                       stats.at<int>(i, cv::CC_STAT_WIDTH), stats.at<int>(i, cv::CC_STAT_HEIGHT));
+    const auto extent = static_cast<float>(std::max(box.width, box.height));
+    if (extent >= kExtentWidths * scale.width_px) {
+      any = true;
+    } else {
+      wide(box).setTo(0, labels(box) == i);
     }
   }
-  return depth;
-}
-
-// Noise from second differences: a slope has none, and a rope's roundness next to none.
-void measure_noise(const cv::Mat& depth, Depths& depths) {
-  constexpr float kSigmas = 0.6745F * 2.4495F;  // of a median of |a - 2 b + c|
-  std::vector<float> bends;
-  std::vector<float> values;
-  for (int v = 0; v < depth.rows; v += 3) {
-    const float* row = depth.ptr<float>(v);
-    for (int u = 1; u + 1 < depth.cols; u += 2) {
-      if (row[u - 1] <= 0 || row[u] <= 0 || row[u + 1] <= 0) continue;
-      bends.push_back(std::abs(row[u - 1] - 2 * row[u] + row[u + 1]));
-      values.push_back(row[u]);
-    }
-  }
-  depths.noise_m = median_of(bends) / kSigmas;
-  depths.usual_m = median_of(values);
-}
-
-Depths smooth_depths(const cv::Mat& mask, cv::Point offset_px, float sigma_px, const Frame& frame) {
-  Depths depths;
-  cv::Mat depth = masked_depths(mask, offset_px, frame);
-  measure_noise(depth, depths);
-  cv::Mat weight;
-  cv::Mat(depth > 0).convertTo(weight, CV_32F, 1.0 / 255);
-  cv::GaussianBlur(depth, depth, {}, sigma_px);
-  cv::GaussianBlur(weight, weight, {}, sigma_px);
-  depths.smooth_m = cv::Mat(mask.size(), CV_32F, cv::Scalar(kAbsent_m));
-  for (int v = 0; v < mask.rows; ++v) {
-    const std::uint8_t* lit = mask.ptr<std::uint8_t>(v);
-    const float* sum = depth.ptr<float>(v);
-    const float* share = weight.ptr<float>(v);
-    float* to = depths.smooth_m.ptr<float>(v);
-    for (int u = 0; u < mask.cols; ++u) {
-      if (lit[u] != 0 && share[u] > kLeastShare) to[u] = sum[u] / share[u];
-    }
-  }
-  return depths;
-}
-
-// How much deeper each pixel of `box` is than its sides, in the direction where that is most. Where
-// one side is higher than the other by more than a slope explains, there is a step, no valley.
-cv::Mat valleys_m(const cv::Mat& smooth_m, const cv::Rect& box, float reach_px, float slope_m) {
-  cv::Mat most = cv::Mat::zeros(smooth_m.size(), CV_32F);
-  for (int k = 0; k < kDirections; ++k) {
-    const double angle = std::numbers::pi * k / kDirections;
-    const int du = static_cast<int>(std::lround(reach_px * std::cos(angle)));
-    const int dv = static_cast<int>(std::lround(reach_px * std::sin(angle)));
-    const int top = std::max(box.y, dv);
-    const int bottom = std::min(box.y + box.height, smooth_m.rows - dv);
-    const int left = std::max(box.x, std::abs(du));
-    const int right = std::min(box.x + box.width, smooth_m.cols - std::abs(du));
-    for (int v = top; v < bottom; ++v) {
-      const float* here = smooth_m.ptr<float>(v);
-      const float* one = smooth_m.ptr<float>(v - dv) - du;
-      const float* other = smooth_m.ptr<float>(v + dv) + du;
-      float* to = most.ptr<float>(v);
-      for (int u = left; u < right; ++u) {
-        const float deeper = here[u] - 0.5F * (one[u] + other[u]);
-        const float step = 0.5F * std::abs(one[u] - other[u]) - slope_m;
-        to[u] = std::max(to[u], deeper - kStepWeight * std::max(0.0F, step));
-      }
-    }
-  }
-  return most;
+  return any ? wide : cv::Mat();
 }
 
 // The band of pixels that seams run in: of the closed mask's wide parts, what is slit or valley.
 // False when there is no valley.
-bool keep_valleys(const cv::Mat& mask, const cv::Mat& wide, const cv::Mat& smooth_m,
-                  const cv::Mat& valley_m, float low_m, cv::Mat& band) {
+bool keep_valleys(const cv::Mat& mask, const cv::Mat& wide, const cv::Mat& valley_m, float low_m,
+                  cv::Mat& band) {
   bool any = false;
   for (int v = 0; v < mask.rows; ++v) {
     const std::uint8_t* lit = mask.ptr<std::uint8_t>(v);
     const std::uint8_t* open = wide.ptr<std::uint8_t>(v);
-    const float* z = smooth_m.ptr<float>(v);
     const float* depth = valley_m.ptr<float>(v);
     std::uint8_t* to = band.ptr<std::uint8_t>(v);
     for (int u = 0; u < mask.cols; ++u) {
-      const bool valley = lit[u] != 0 && z[u] < kAbsent_m && depth[u] > low_m;
+      const bool valley = lit[u] != 0 && depth[u] > low_m;
       if (open[u] == 0 || (lit[u] != 0 && !valley)) to[u] = 0;
       any = any || (valley && to[u] != 0);
     }
   }
   return any;
+}
+
+int around(const cv::Mat& lines, int u, int v) {
+  int count = 0;
+  for (int dv = -1; dv <= 1; ++dv) {
+    for (int du = -1; du <= 1; ++du) count += lines.at<std::uint8_t>(v + dv, u + du) != 0 ? 1 : 0;
+  }
+  return count - 1;
+}
+
+struct Branch {
+  int length = 0;
+  int tips = 0;
+  int inside = 0;     // of the mask, not of a slit
+  float depth_m = 0;  // summed over those
+};
+
+// The stretches of `lines` between tips and forks, numbered from 1 in `labels`.
+std::vector<Branch> branches_of(const cv::Mat& lines, const cv::Mat& mask, const cv::Mat& valley_m,
+                                cv::Mat& labels) {
+  cv::Mat open = lines.clone();
+  cv::Mat tips = cv::Mat::zeros(lines.size(), CV_8U);
+  for (int v = 1; v + 1 < lines.rows; ++v) {
+    for (int u = 1; u + 1 < lines.cols; ++u) {
+      if (lines.at<std::uint8_t>(v, u) == 0) continue;
+      const int degree = around(lines, u, v);
+      if (degree > 2) open.at<std::uint8_t>(v, u) = 0;
+      tips.at<std::uint8_t>(v, u) = degree < 2 ? 1 : 0;
+    }
+  }
+  const int count = cv::connectedComponents(open, labels, 8, CV_32S);
+  std::vector<Branch> branches(static_cast<std::size_t>(count));
+  for (int v = 1; v + 1 < lines.rows; ++v) {
+    for (int u = 1; u + 1 < lines.cols; ++u) {
+      const int label = labels.at<int>(v, u);
+      if (label == 0) continue;
+      Branch& branch = branches[static_cast<std::size_t>(label)];
+      ++branch.length;
+      branch.tips += tips.at<std::uint8_t>(v, u);
+      if (mask.at<std::uint8_t>(v, u) == 0) continue;
+      ++branch.inside;
+      branch.depth_m += valley_m.at<float>(v, u);
+    }
+  }
+  return branches;
+}
+
+// Takes from `lines` branches that lead nowhere and are shorter than `spur_px`, and those shorter
+// than `rung_px` that are less deep than `high_m` in the mean.
+void prune(cv::Mat& lines, const cv::Mat& mask, const cv::Mat& valley_m, float high_m,
+           float spur_px, float rung_px) {
+  cv::Mat labels;
+  const std::vector<Branch> branches = branches_of(lines, mask, valley_m, labels);
+  for (int v = 1; v + 1 < lines.rows; ++v) {
+    for (int u = 1; u + 1 < lines.cols; ++u) {
+      const int label = labels.at<int>(v, u);
+      if (label == 0) continue;
+      const Branch& branch = branches[static_cast<std::size_t>(label)];
+      const auto length = static_cast<float>(branch.length);
+      const bool shallow =
+          length < rung_px && branch.depth_m < high_m * static_cast<float>(branch.inside);
+      if (shallow || (branch.tips == 1 && length < spur_px)) lines.at<std::uint8_t>(v, u) = 0;
+    }
+  }
+  lines = thin(lines);
+}
+
+// The line's pixel some steps from its tip.
+cv::Point back_from(const cv::Mat& lines, cv::Point tip, int steps) {
+  cv::Point before = tip;
+  cv::Point at = tip;
+  for (int i = 0; i < steps; ++i) {
+    cv::Point next = at;
+    for (int dv = -1; dv <= 1; ++dv) {
+      for (int du = -1; du <= 1; ++du) {
+        const cv::Point p = at + cv::Point(du, dv);
+        const cv::Point off = p - before;
+        const bool away = std::max(std::abs(off.x), std::abs(off.y)) > 1 || before == at;
+        if (p != at && p != before && away && lines.at<std::uint8_t>(p) != 0) next = p;
+      }
+    }
+    if (next == at) break;
+    before = at;
+    at = next;
+  }
+  return at;
+}
+
+// Thinning ends a line before the mask does: tips run on to its edge where that is near.
+void run_out(cv::Mat& lines, const cv::Mat& mask, float width_px) {
+  std::vector<cv::Point> added;
+  for (int v = 1; v + 1 < lines.rows; ++v) {
+    for (int u = 1; u + 1 < lines.cols; ++u) {
+      const cv::Point tip(u, v);
+      if (lines.at<std::uint8_t>(tip) == 0 || mask.at<std::uint8_t>(tip) == 0) continue;
+      if (around(lines, u, v) != 1) continue;
+      const int steps = std::max(3, static_cast<int>(kTangentWidths * width_px));
+      const cv::Point2f along = tip - back_from(lines, tip, steps);
+      const float length = std::hypot(along.x, along.y);
+      const int reach = static_cast<int>(kRunOutWidths * width_px);
+      std::vector<cv::Point> way;
+      for (int k = 1; k <= reach && length > 0; ++k) {
+        const cv::Point p = cv::Point2f(tip) + static_cast<float>(k) / length * along;
+        if (p.x < 1 || p.y < 1 || p.x + 1 >= lines.cols || p.y + 1 >= lines.rows) break;
+        if (mask.at<std::uint8_t>(p) == 0) {
+          added.insert(added.end(), way.begin(), way.end());
+          break;
+        }
+        way.push_back(p);
+      }
+    }
+  }
+  for (const cv::Point& p : added) lines.at<std::uint8_t>(p) = 1;
 }
 
 // The lines of `lines` that are long and mostly deeper than `high_m`, made tight against diagonal
@@ -186,10 +226,10 @@ cv::Mat long_and_deep(const cv::Mat& lines, const cv::Mat& mask, const cv::Mat& 
   return any ? seams : cv::Mat();
 }
 
-// Adds what the seams cut off the mask that is no strand: thin pieces beside the mask's slits.
-void add_slivers(const cv::Mat& mask, float narrow_px, cv::Mat& seams) {
-  const int half = static_cast<int>(0.5F * kSliverWidths * narrow_px);
-  if (half < 1) return;
+// Adds the mask's slits that the seams run through, and what the seams cut off the mask that is no
+// strand: thin pieces beside those slits.
+void add_slits(const cv::Mat& mask, const cv::Mat& closed, float narrow_px, cv::Mat& seams) {
+  const int half = std::max(1, static_cast<int>(0.5F * kSliverWidths * narrow_px));
   const cv::Mat brush = square(half);
   cv::Mat near;
   cv::Mat rest = mask.clone();
@@ -198,37 +238,49 @@ void add_slivers(const cv::Mat& mask, float narrow_px, cv::Mat& seams) {
   erode(rest, thick, brush);
   cv::dilate(thick, thick, brush);
   cv::dilate(seams, near, brush);
-  seams |= rest & near & (1 - thick);
+  seams |= near & ((rest & (1 - thick)) | (closed & (1 - mask)));
+}
+
+// The seams of a mask that has `wide` parts; `closed` is the mask without its slits.
+cv::Mat seams_in(const ValleyView& view, const cv::Mat& wide, float narrow_px, const Frame& frame) {
+  const Valleys valleys = measure_valleys(view, frame);
+  if (valleys.radius_m <= 0) return {};
+  const float low_m = std::max(kNoiseLow * valleys.noise_m, kRadiiLow * valleys.radius_m);
+  const float high_m = std::max(kNoiseHigh * valleys.noise_m, kRadiiHigh * valleys.radius_m);
+  cv::Mat band = view.closed.clone();
+  if (!keep_valleys(view.mask, wide, valleys.depth_m, low_m, band)) return {};
+  cv::Mat lines = thin(band);
+  const float spur_px = kSpurWidths * view.width_px;
+  prune(lines, view.mask, valleys.depth_m, high_m, spur_px, 0);
+  prune(lines, view.mask, valleys.depth_m, high_m, spur_px, kRungWidths * view.width_px);
+  run_out(lines, view.mask, view.width_px);
+  cv::Mat seams =
+      long_and_deep(lines, view.mask, valleys.depth_m, high_m, kShortestWidths * view.width_px);
+  if (!seams.empty()) add_slits(view.mask, view.closed, narrow_px, seams);
+  return seams;
 }
 
 }  // namespace
 
 cv::Mat find_seams(const cv::Mat& mask, const SeamScale& scale, const Frame& frame) {
-  const int slit = std::max(1, static_cast<int>(std::lround(0.5F * kSlitWidths * scale.narrow_px)));
-  cv::Mat band;
-  cv::dilate(mask, band, square(slit));
-  erode(band, band, square(slit));
-  cv::Mat distance_px;
-  cv::distanceTransform(band, distance_px, cv::DIST_L2, 3);
-  cv::Mat wide = distance_px > kWideShare * scale.narrow_px;
-  if (cv::countNonZero(wide) == 0) return {};
-  cv::dilate(wide, wide, square(static_cast<int>(std::ceil(kReachWidths * scale.narrow_px))));
-
-  const float sigma_px = std::clamp(kSmoothWidths * scale.width_px, 0.8F, 4.0F);
-  const Depths depths = smooth_depths(mask, scale.offset_px, sigma_px, frame);
-  if (depths.usual_m <= 0) return {};
-  const float m_per_px = depths.usual_m / std::max(1.0F, frame.intrinsics.fx);
-  const float reach_px = std::max(2.0F, kProbeWidths * scale.width_px);
-  const cv::Mat valley_m =
-      valleys_m(depths.smooth_m, cv::boundingRect(wide), reach_px, kSlope * reach_px * m_per_px);
-  const float radius_m = 0.5F * scale.width_px * m_per_px;
-  const float noise_m = depths.noise_m / (2 * std::sqrt(std::numbers::pi_v<float>) * sigma_px);
-  const float low_m = std::max(kNoiseLow * noise_m, kRadiiLow * radius_m);
-  const float high_m = std::max(kNoiseHigh * noise_m, kRadiiHigh * radius_m);
-  if (!keep_valleys(mask, wide, depths.smooth_m, valley_m, low_m, band)) return {};
-  cv::Mat seams =
-      long_and_deep(thin(band), mask, valley_m, high_m, kShortestWidths * scale.width_px);
-  if (!seams.empty()) add_slivers(mask, scale.narrow_px, seams);
+  const cv::Mat slit =
+      square(std::max(1, static_cast<int>(std::lround(0.5F * kSlitWidths * scale.narrow_px))));
+  cv::Mat closed;
+  cv::dilate(mask, closed, slit);
+  erode(closed, closed, slit);
+  const cv::Mat wide = wide_parts(closed, scale);
+  if (wide.empty()) return {};
+  const int margin = valley_margin(scale.width_px);
+  const cv::Rect inner = cv::boundingRect(wide);
+  const cv::Rect box = cv::Rect(inner.x - margin, inner.y - margin, inner.width + 2 * margin,
+                                inner.height + 2 * margin) &
+                       cv::Rect(0, 0, mask.cols, mask.rows);
+  const ValleyView view{mask(box), closed(box), inner - box.tl(), scale.offset_px + box.tl(),
+                        scale.width_px};
+  const cv::Mat found = seams_in(view, wide(box), scale.narrow_px, frame);
+  if (found.empty()) return {};
+  cv::Mat seams = cv::Mat::zeros(mask.size(), CV_8U);
+  found.copyTo(seams(box));
   return seams;
 }
 

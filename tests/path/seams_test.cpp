@@ -81,7 +81,7 @@ int columns_cut(const cv::Mat& seams, int v) {
 
 int components(const cv::Mat& mask, const cv::Mat& seams) {
   cv::Mat rest = mask.clone();
-  rest.setTo(0, seams);
+  if (!seams.empty()) rest.setTo(0, seams);
   cv::Mat labels;
   return cv::connectedComponents(rest, labels, 8) - 1;
 }
@@ -114,6 +114,25 @@ TEST(Seams, AreFoundInNoise) {
   ropes.noise_m = 0.15F * ropes.radius_px * kBehind_m / kFocal_px;
   const Picture picture = draw(ropes);
   EXPECT_EQ(components(picture.mask, picture.seams()), 2);
+}
+
+TEST(Seams, AreFoundInDepthsThatComeInCoarseSteps) {
+  Ropes ropes;
+  ropes.noise_m = 0.15F * ropes.radius_px * kBehind_m / kFocal_px;
+  Picture picture = draw(ropes);
+  for (float& z : picture.depth_m) z = 0.003F * std::round(z / 0.003F);
+  EXPECT_EQ(components(picture.mask, picture.seams()), 2);
+}
+
+TEST(Seams, AreFoundWhereNothingShowsHowWideOneRopeIs) {
+  Ropes ropes;
+  ropes.centres_px = {30, 46, 62};
+  Picture picture = draw(ropes);
+  picture.mask *= 255;
+  const auto region = path::clean(picture.frame());
+  ASSERT_TRUE(region);
+  EXPECT_EQ(components(region->mask, {}), 3);
+  EXPECT_NEAR(region->width_px, 16, 3);
 }
 
 TEST(Seams, JoinTheMasksOwnSlits) {
@@ -158,7 +177,7 @@ TEST(Seams, NeedDepths) {
 }
 
 TEST(Seams, AreNotFoundAtCrossings) {
-  for (const auto kind : {lab::Kind::kOneCrossing, lab::Kind::kHangingLoops}) {
+  for (const auto kind : {lab::Kind::kOneCrossing, lab::Kind::kHangingLoops, lab::Kind::kRagged}) {
     for (std::uint64_t seed = 5050; seed < 5060; ++seed) {
       const lab::Scene scene = lab::make_scene(kind, seed);
       const auto region = path::clean(scene.frame());
