@@ -17,7 +17,7 @@ constexpr int kFineRounds = 10;
 constexpr float kFineFactor = 1.15F;
 constexpr float kMostBending = 20.0F;
 constexpr float kWidths = 6.0F;         // a unit for each six widths of length
-constexpr float kShapeBending = 0.3F;   // the curve drawn bends as little as it can;
+constexpr float kShapeBending = 1.0F;   // the curve drawn bends as little as it can;
 constexpr float kLinkBending = 0.2F;    // as a link it had better bend on as the ends do
 constexpr float kNearestWidths = 0.5F;  // ends nearer than this have no curve between them
 constexpr float kOpenCost = 8.0F;       // where the background shows, at most;
@@ -67,8 +67,8 @@ class Gap {
  private:
   [[nodiscard]] Cubic cubic_of(float leaves, float enters) const {
     const Vector2f chord = to_.point_px - from_.point_px;
-    return {from_.point_px, to_.point_px, leaves * chord.norm() * from_.outward,
-            -enters * chord.norm() * to_.outward};
+    return {from_.point_px, to_.point_px, leaves * chord.norm() * from_.heading,
+            -enters * chord.norm() * to_.heading};
   }
 
   bool attempt(float leaves, float enters) {
@@ -104,7 +104,7 @@ class Gap {
   // Energy times length is free of units: for an arc, its turn squared.
   [[nodiscard]] float bending(float energy, float chord_px) const {
     if (chord_px >= kNearestWidths * scale_px_) return std::min(kMostBending, energy);
-    const float turn = std::acos(std::clamp(-from_.outward.dot(to_.outward), -1.0F, 1.0F));
+    const float turn = std::acos(std::clamp(-from_.heading.dot(to_.heading), -1.0F, 1.0F));
     return turn * turn;
   }
 

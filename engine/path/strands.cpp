@@ -1,5 +1,6 @@
 #include "path/strands.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -21,9 +22,10 @@ constexpr float kFullShare = 0.85F;   // of the usual half width: a tip begins b
 constexpr float kTipWidths = 5.0F;    // the stretch that tells what is usual
 constexpr float kDepthWidths = 3.0F;  // length over which a depth is fitted
 constexpr int kDepthSamples = 16;
-constexpr float kSlopeWidths = 2.0F;  // a slope over this length counts half
-constexpr float kCutWidths = 3.0F;    // how far ahead an occluder is looked for
-constexpr float kMaxSlope = 1.5F;     // metres of depth a metre sideways
+constexpr float kSlopeWidths = 2.0F;     // a slope over this length counts half
+constexpr float kCutWidths = 3.0F;       // how far ahead an occluder is looked for
+constexpr float kHeadingWidths = 0.75F;  // from the middle of what tells the direction to the end
+constexpr float kMaxSlope = 1.5F;        // metres of depth a metre sideways
 
 float at(const cv::Mat& image, const Vector2f& p) {
   const int u = std::clamp(static_cast<int>(std::lround(p.x())), 0, image.cols - 1);
@@ -173,6 +175,7 @@ Strand make_strand(const Segment& segment, const Graph& graph, const Crossings& 
     end.point_px = points.front();
     end.outward = direction_at_front(points, sizes.scale_px);
     end.curvature = curvature_at_front(points, sizes.scale_px);
+    end.heading = Eigen::Rotation2Df(kHeadingWidths * sizes.scale_px * end.curvature) * end.outward;
     measure_depth(points, region, frame, sizes.scale_px, end);
     end.cut = cover.beyond(end.point_px, end.outward, end.depth_m, kCutWidths * sizes.scale_px) ==
               Sight::kHidden;
