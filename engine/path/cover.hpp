@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
 
 #include "flowdlo/frame.hpp"
 #include "path/region.hpp"

@@ -21,6 +21,7 @@ constexpr float kShapeBending = 1.0F;   // the curve drawn bends as little as it
 constexpr float kLinkBending = 0.2F;    // as a link it had better bend on as the ends do
 constexpr float kNearestWidths = 0.5F;  // ends nearer than this have no curve between them
 constexpr float kOpenCost = 8.0F;       // where the background shows, at most;
+constexpr float kBelow_m = 0.03F;       // so does another strand this far below
 constexpr float kOpenWidths = 4.0F;     // most of it for this many widths
 
 struct Cubic {
@@ -116,7 +117,9 @@ class Gap {
       const float t = (static_cast<float>(i) + 0.5F) / kSamples;
       const Vector2f p = cubic.at(t);
       const float rope_m = (1 - t) * from_.depth_m + t * to_.depth_m;
-      if (!cover_.masked(p) && cover_.at(p, rope_m) == Sight::kOpen) open_px += steps[i];
+      const bool open = cover_.masked(p) ? cover_.rope_depth(p) > rope_m + kBelow_m
+                                         : cover_.at(p, rope_m) == Sight::kOpen;
+      if (open) open_px += steps[i];
     }
     return kOpenCost * (1 - std::exp(-open_px / (kOpenWidths * scale_px_)));
   }
