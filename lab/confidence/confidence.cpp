@@ -1,14 +1,12 @@
-// flowdlo_confidence fit [SCENES_PER_KIND [FIRST_SEED]]: fits the weights of estimator/ranking.cpp
-// and estimator/confidence.cpp on scenes with truth and prints them.
-// flowdlo_confidence report [SCENES_PER_KIND [FIRST_SEED [FOLDER]]]: how often the best hypothesis
-// is right before and after comparing it with the frame, and what its confidence says, kind by
-// kind. Wrong winners are drawn into FOLDER, where one is given.
+// flowdlo_confidence fit: fits the weights of estimator/ranking.cpp and estimator/confidence.cpp on
+// scenes with truth and prints them. flowdlo_confidence report: how often the best hypothesis is
+// right before and after comparing it with the frame, and what its confidence says, kind by kind.
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
-#include <cstdlib>
+#include <map>
 #include <numeric>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "confidence/choice.hpp"
@@ -157,14 +155,14 @@ struct Tally {
     wrong += text;
   }
 
-  void print(std::string_view name) {
+  void print(const std::string& name) {
     std::sort(confidence_right.begin(), confidence_right.end());
     std::sort(ms.begin(), ms.end());
     const int wrongs = scenes - right;
     const double all = std::max(1, scenes);
     std::printf(
         "| %s | %d | %.1f %% | %.1f %% | %d | %d of %d | %.1f %% | %.2f | %.1f | %.1f |%s |\n",
-        std::string(name).c_str(), scenes, 100 * right_before / all, 100 * right / all, alternative,
+        name.c_str(), scenes, 100 * right_before / all, 100 * right / all, alternative,
         wrong_doubted, wrongs, 100.0 * right_trusted / std::max(1, right),
         confidence_right.empty()
             ? 0.0
@@ -198,11 +196,11 @@ void print_reliability(const std::vector<Sample>& samples) {
 }
 
 void draw_wrong(const Sample& sample, const std::string& folder) {
+  const auto kind = flowdlo::lab::kind_of(sample.kind);
   const Judged judgement = judged(sample, score_of);
-  if (folder.empty() || judgement.best->right) return;
-  const auto scene = flowdlo::lab::make_scene(sample.kind, sample.seed);
-  const std::string file =
-      folder + "/" + std::string(name_of(sample.kind)) + "_" + std::to_string(sample.seed) + ".png";
+  if (folder.empty() || judgement.best->right || !kind) return;  // `flowdlo eval` draws the others
+  const auto scene = flowdlo::lab::make_scene(*kind, sample.seed);
+  const std::string file = folder + "/" + sample.kind + "_" + std::to_string(sample.seed) + ".png";
   auto truth = scene.truth;
   if (!flowdlo::prior::is_canonical(truth)) std::reverse(truth.begin(), truth.end());
   if (!flowdlo::lab::save_overlay(file, scene, truth, judgement.best->refined)) {
@@ -215,45 +213,77 @@ void print_report(const std::vector<Sample>& samples, const std::string& folder)
       "| kind | scenes | right before | right | of the wrong: another is right |"
       " confidence < 0.5 | right with >= 0.5 | median of the right | ms p50 | ms p95 |"
       " wrong seeds |\n|---|---|---|---|---|---|---|---|---|---|---|\n");
+  std::map<std::string, Tally> kinds;
   Tally all;
-  for (int k = 0; k < flowdlo::lab::kKinds; ++k) {
-    Tally tally;
-    for (const Sample& sample : samples) {
-      if (sample.kind != static_cast<Kind>(k)) continue;
-      tally.add(sample);
-      all.add(sample);
-      draw_wrong(sample, folder);
-    }
-    tally.print(name_of(static_cast<Kind>(k)));
+  for (const Sample& sample : samples) {
+    kinds[sample.kind].add(sample);
+    all.add(sample);
+    draw_wrong(sample, folder);
   }
+  for (auto& [kind, tally] : kinds) tally.print(kind);
   all.wrong.clear();
   all.print("all");
   print_reliability(samples);
 }
 
-}  // namespace
+struct Options {
+  int scenes = 60;
+  std::uint64_t first = 0;
+  int wide = 0;
+  std::uint64_t wide_first = 5000000;
+  std::string overlays;
+};
 
-int main(int count, char** values) {
-  const std::string mode = count > 1 ? values[1] : "";
-  if (mode != "fit" && mode != "report") {
-    std::fprintf(stderr,
-                 "usage: flowdlo_confidence fit|report [SCENES_PER_KIND [FIRST_SEED [FOLDER]]]\n");
-    return 2;
-  }
-  const int scenes = count > 2 ? std::atoi(values[2]) : 60;
-  const std::uint64_t first = count > 3 ? std::strtoull(values[3], nullptr, 10) : 0;
+std::vector<Sample> make_samples(const Options& options) {
   std::vector<Sample> samples;
   for (int k = 0; k < flowdlo::lab::kKinds; ++k) {
-    for (int i = 0; i < scenes; ++i) {
-      const std::uint64_t seed = first + static_cast<std::uint64_t>(i);
+    for (int i = 0; i < options.scenes; ++i) {
+      const std::uint64_t seed = options.first + static_cast<std::uint64_t>(i);
       auto sample = measure(flowdlo::lab::make_scene(static_cast<Kind>(k), seed), seed);
       if (sample) samples.push_back(*std::move(sample));
     }
   }
-  if (mode == "fit") {
+#ifdef FLOWDLO_WITH_SYNTH
+  for (int i = 0; i < options.wide; ++i) {
+    const auto scene = flowdlo::synth::make_frame(
+        flowdlo::synth::Split::kWide, flowdlo::synth::Part::kTraining, 0,
+        options.wide_first + static_cast<std::uint64_t>(i), {.color = false});
+    if (!scene) continue;
+    auto sample = flowdlo::lab::measure(*scene);
+    if (sample) samples.push_back(*std::move(sample));
+  }
+#endif
+  return samples;
+}
+
+}  // namespace
+
+int main(int count, char** values) {
+  Options options;
+  CLI::App app{"The estimator's ranking and confidence on scenes with truth"};
+  app.require_subcommand(1);
+  auto* fit = app.add_subcommand("fit", "Fit the weights and print them");
+  auto* report = app.add_subcommand("report", "What the weights are worth, kind by kind");
+  for (CLI::App* command : {fit, report}) {
+    command->add_option("--scenes", options.scenes, "Drawn scenes of each kind")
+        ->capture_default_str();
+    command->add_option("--first", options.first, "Seed of the first")->capture_default_str();
+#ifdef FLOWDLO_WITH_SYNTH
+    command->add_option("--wide", options.wide, "Synthetic frames of the wide training split")
+        ->capture_default_str();
+    command->add_option("--wide-first", options.wide_first, "Index of the first")
+        ->capture_default_str();
+#endif
+  }
+  report->add_option("--overlays", options.overlays, "Draw wrong winners of drawn scenes into DIR")
+      ->check(CLI::ExistingDirectory)
+      ->type_name("DIR");
+  CLI11_PARSE(app, count, values);
+  const std::vector<Sample> samples = make_samples(options);
+  if (fit->parsed()) {
     fit_confidence(samples, fit_ranking(samples));
   } else {
-    print_report(samples, count > 4 ? values[4] : "");
+    print_report(samples, options.overlays);
   }
   return 0;
 }

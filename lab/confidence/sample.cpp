@@ -4,6 +4,7 @@
 #include <chrono>
 
 #include "estimator/hypotheses.hpp"
+#include "eval/metrics.hpp"
 #include "evidence/visible_points.hpp"
 #include "path/path.hpp"
 #include "prior_report/traversal.hpp"
@@ -17,6 +18,9 @@ using Eigen::Vector2f;
 // strand, does not make the order wrong.
 constexpr float kTipWidths = 6;
 constexpr float kTipShare = 0.08F;  // and no more than that of the path
+#ifdef FLOWDLO_WITH_SYNTH
+constexpr double kMostErrorShare = 0.02;  // of the rope's length
+#endif
 
 using Points = std::vector<Vector2f>;
 
@@ -67,10 +71,9 @@ bool right(const path::Path& path, float width_px, const Scene& scene) {
   return false;
 }
 
-}  // namespace
-
-std::optional<Sample> measure(const Scene& scene, std::uint64_t seed) {
-  const Frame frame = scene.frame();
+/// `right` judges a hypothesis.
+template <class Right>
+std::optional<Sample> judged(const Frame& frame, Sample sample, const Right& right) {
   const auto traced = path::trace(frame);
   if (!traced) return std::nullopt;
   const auto cloud = evidence::unproject(frame);
@@ -80,13 +83,32 @@ std::optional<Sample> measure(const Scene& scene, std::uint64_t seed) {
       estimator::lift_all(*traced, cloud, visible, frame, weights::PriorKind::kRefined);
   const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - start;
   if (!lifted) return std::nullopt;
-  Sample sample{scene.kind, seed, {}, took.count()};
+  sample.judging_ms = took.count();
   for (const auto& hypothesis : *lifted) {
     sample.candidates.push_back(
-        {hypothesis.evidence, hypothesis.prior, hypothesis.path_score,
-         right(traced->ranked[hypothesis.path], traced->rope_width_px, scene)});
+        {hypothesis.evidence, hypothesis.prior, hypothesis.path_score, right(hypothesis, *traced)});
   }
   return sample;
 }
+
+}  // namespace
+
+std::optional<Sample> measure(const Scene& scene, std::uint64_t seed) {
+  return judged(scene.frame(), {std::string(name_of(scene.kind)), seed, {}, 0},
+                [&](const estimator::Hypothesis& hypothesis, const path::Traversals& traced) {
+                  return right(traced.ranked[hypothesis.path], traced.rope_width_px, scene);
+                });
+}
+
+#ifdef FLOWDLO_WITH_SYNTH
+std::optional<Sample> measure(const synth::SyntheticFrame& scene) {
+  return judged(scene.frame(), {scene.meta.scenario, scene.meta.index, {}, 0},
+                [&](const estimator::Hypothesis& hypothesis, const path::Traversals&) {
+                  const eval::Score score = eval::score(hypothesis.prior.nodes, scene.truth());
+                  return score.strand_errors <= 0 &&
+                         score.either_index_m < kMostErrorShare * scene.meta.length_m;
+                });
+}
+#endif
 
 }  // namespace flowdlo::lab

@@ -3,11 +3,15 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "estimator/ranking.hpp"
 #include "prior/prior.hpp"
 #include "scene/scene.hpp"
+#ifdef FLOWDLO_WITH_SYNTH
+#include "synth/synthetic_frame.hpp"
+#endif
 
 namespace flowdlo::lab {
 
@@ -20,7 +24,7 @@ struct Candidate {
 
 /// Candidates in the order of path::trace.
 struct Sample {
-  Kind kind = Kind::kSimple;
+  std::string kind;  ///< of the scene, or the scenario of a synthetic frame
   std::uint64_t seed = 0;
   std::vector<Candidate> candidates;
   double judging_ms = 0;  ///< lifting and comparing
@@ -28,5 +32,11 @@ struct Sample {
 
 /// Nothing where no path was found or the first could not be lifted.
 [[nodiscard]] std::optional<Sample> measure(const Scene& scene, std::uint64_t seed);
+
+#ifdef FLOWDLO_WITH_SYNTH
+/// The same of a synthetic frame. There a candidate is right when no node is astray along the rope
+/// and the index error, either way round, stays below a fiftieth of the length.
+[[nodiscard]] std::optional<Sample> measure(const synth::SyntheticFrame& scene);
+#endif
 
 }  // namespace flowdlo::lab
