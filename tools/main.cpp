@@ -10,6 +10,7 @@
 #include "estimate_command.hpp"
 #include "exit_code.hpp"
 #include "flowdlo/version.hpp"
+#include "synth_command.hpp"
 #include "weights_command.hpp"
 
 int main(int argc, char** argv) {
@@ -21,6 +22,7 @@ int main(int argc, char** argv) {
   auto exit_code = ExitCode::kDone;
   add_estimate_command(app, exit_code);
   add_devices_command(app);
+  add_synth_command(app, exit_code);
   add_weights_command(app, exit_code);
   add_bench_command(app, exit_code);
   try {

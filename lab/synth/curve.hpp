@@ -1,0 +1,54 @@
+// Curve: a rope's centerline as dense samples, evenly spaced in arclength, and what can be
+// measured on it.
+#pragma once
+
+#include <Eigen/Core>
+#include <span>
+#include <vector>
+
+#include "flowdlo/centerline.hpp"
+
+namespace flowdlo::synth {
+
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+struct Curve {
+  std::vector<Vector3d> points;
+  double step_m = 0;  ///< arclength between neighbours
+
+  [[nodiscard]] double length_m() const {
+    return points.empty() ? 0 : step_m * static_cast<double>(points.size() - 1);
+  }
+};
+
+/// Two arclengths, in samples, at which a plane curve crosses itself; the sine of the angle.
+struct Crossing {
+  double first = 0;   ///< smaller one
+  double second = 0;  ///< larger one
+  double sine = 1;
+};
+
+/// `points` resampled evenly, about `spacing_m` apart; the number of steps is a multiple of four.
+[[nodiscard]] Curve respaced(std::span<const Vector3d> points, double spacing_m);
+
+/// Every sample replaced by the mean of those within `reach` samples; the ends stay.
+void smooth(std::vector<Vector3d>& points, int reach);
+
+[[nodiscard]] std::vector<Crossing> crossings(std::span<const Vector2d> points);
+
+/// Of the circles through samples two radii apart, metres.
+[[nodiscard]] double least_bend_radius_m(const Curve& curve, double radius_m);
+
+/// How near strands of one rope come to each other.
+struct Nearness {
+  double least_m = 0;    ///< distance of two samples over eight radii of arclength apart
+  double contact_m = 0;  ///< longest stretch within 2.4 radii of another strand
+};
+
+[[nodiscard]] Nearness nearness(const Curve& curve, double radius_m);
+
+/// [64, 3] uniform in arclength, Eq. (3.2); direction of Sec. 3.3: the smaller x first, then y, z.
+[[nodiscard]] Centerline nodes_of(const Curve& curve);
+
+}  // namespace flowdlo::synth

@@ -1,0 +1,50 @@
+// Faults: what a sensor and a segmenter will get wrong in one scene.
+#pragma once
+
+#include <string_view>
+#include <vector>
+
+#include "synth/dice.hpp"
+#include "synth/view.hpp"
+
+namespace flowdlo::synth {
+
+/// Part of the rope, in samples of its curve.
+struct Stretch {
+  double from = 0;
+  double to = 0;
+
+  [[nodiscard]] bool holds(double sample) const { return sample >= from && sample <= to; }
+};
+
+struct DepthFaults {
+  bool noise = false;
+  bool whole_mm = false;       ///< the sensor reports millimetres
+  double flying = 0;           ///< share of border pixels between rope and background
+  double dropout = 0;          ///< share of border pixels without depth
+  int holes = 0;               ///< round ones on the rope
+  std::vector<Stretch> lost;   ///< no depth at all
+  std::vector<Stretch> black;  ///< hardly any depth
+  std::vector<Stretch> shiny;  ///< no depth where the rope faces the camera
+  std::vector<Stretch> sunk;   ///< thin rope that takes on the background's depth
+};
+
+struct MaskFaults {
+  int ragged_px = 0;  ///< reach of a frayed border, at 640 px of width
+  int shift_px = 0;   ///< dilated (1) or eroded (-1)
+  int specks = 0;
+  std::vector<Stretch> gaps;
+};
+
+struct Faults {
+  DepthFaults depth;
+  MaskFaults mask;
+  bool bars = false;
+  bool hand = false;
+  bool clutter = false;
+};
+
+/// Of a scene of the wide split. Three scenes of ten have sensor noise only.
+[[nodiscard]] Faults draw_faults(const Rope& rope, const View& view, bool dark, Dice& dice);
+
+}  // namespace flowdlo::synth

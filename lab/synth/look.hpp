@@ -1,0 +1,30 @@
+// Look: colours of a scene, and its picture in them.
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+#include "synth/synthetic_frame.hpp"
+#include "synth/tracer.hpp"
+
+namespace flowdlo::synth {
+
+struct Material {
+  std::string_view name;
+  Vector3d color_bgr;
+  HsvBand band;  ///< of the rope where it is lit
+  bool dark = false;
+};
+
+/// One of the thesis' five, Sec. 4.1.1.
+[[nodiscard]] const Material& draw_material(Dice& dice);
+
+/// [height, width, 3]. The light, the ground's texture and the camera's noise come from `dice`.
+[[nodiscard]] std::vector<std::uint8_t> colored(const View& view, const Tracer& tracer,
+                                                const Picture& picture,
+                                                std::span<const Thing> things,
+                                                const Material& material, double radius_m,
+                                                bool lively, Dice& dice);
+
+}  // namespace flowdlo::synth

@@ -1,0 +1,42 @@
+// Rope: one rope of a scenario, in its own frame, before any camera looks at it.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string_view>
+
+#include "synth/curve.hpp"
+#include "synth/dice.hpp"
+
+namespace flowdlo::synth {
+
+struct Rope {
+  std::string_view scenario;
+  Curve curve;  ///< on a table: z upwards from it; hanging: x right, y down, z out of its plane
+  double radius_m = 0;
+  bool hanging = false;
+  int grippers = 0;  ///< of a hanging rope: 1 holds its first end, 2 hold both
+  bool coil = false;
+};
+
+inline constexpr std::array<std::string_view, 9> kThesisScenarios = {"C",
+                                                                     "S",
+                                                                     "straight",
+                                                                     "intersection",
+                                                                     "C-complicated",
+                                                                     "S-complicated",
+                                                                     "straight-complicated",
+                                                                     "intersection-complicated",
+                                                                     "intersection-new"};
+inline constexpr std::array<std::string_view, 9> kWideScenarios = {
+    "table",   "crossing",     "crossings", "hanging",   "hanging-loops",
+    "hairpin", "side-by-side", "coil",      "ends-touch"};
+
+/// Strands at least 1.95 radii apart, no bend tighter than 3 radii; empty when an attempt failed.
+[[nodiscard]] std::optional<Rope> try_thesis_rope(std::string_view scenario, Dice& dice);
+[[nodiscard]] std::optional<Rope> try_wide_rope(std::string_view scenario, Dice& dice);
+
+/// What every rope must be.
+[[nodiscard]] bool sound(const Rope& rope);
+
+}  // namespace flowdlo::synth
