@@ -49,10 +49,10 @@ DepthFaults draw_depth(const Rope& rope, const View& view, bool plain, bool dark
   faults.flying = dice.chance(0.6) ? dice.uniform(0.05, plain ? 0.15 : 0.6) : 0.0;
   if (plain) return faults;
   const bool time_of_flight = view.sensor->principle == DepthPrinciple::kTimeOfFlight;
-  faults.dropout = dice.chance(0.35) ? dice.uniform(0.1, 0.9) : 0.0;
+  faults.dropout = dice.chance(0.3) ? dice.uniform(0.1, 0.9) : 0.0;
   faults.holes = dice.chance(0.2) ? dice.integer(1, 6) : 0;
   if (dice.chance(0.15)) faults.lost.push_back(anywhere(rope, 0.04, 0.2, dice));
-  if (dice.chance(0.35)) lose_turn(rope, view, dice, faults.lost);
+  if (dice.chance(0.25)) lose_turn(rope, view, dice, faults.lost);
   const double black = dark ? (time_of_flight ? 0.35 : 0.2) : 0.05;
   for (int k = dice.chance(black) ? dice.integer(1, 3) : 0; k > 0; --k) {
     faults.black.push_back(anywhere(rope, 0.05, 0.3, dice));
@@ -72,6 +72,7 @@ MaskFaults draw_mask(const Rope& rope, const View& view, Dice& dice) {
   const double width_px = width_px_of(rope, view);
   MaskFaults faults;
   faults.ragged_px = dice.chance(0.28) ? dice.integer(1, width_px < 8 ? 1 : 3) : 0;
+  faults.frayed_inwards = width_px > 6;
   faults.shift_px = dice.chance(0.3) ? (width_px < 5 || dice.chance(0.6) ? 1 : -1) : 0;
   faults.specks = dice.chance(0.12) ? dice.integer(1, 10) : 0;
   if (dice.chance(0.12)) {
@@ -88,7 +89,7 @@ MaskFaults draw_mask(const Rope& rope, const View& view, Dice& dice) {
 }  // namespace
 
 Faults draw_faults(const Rope& rope, const View& view, bool dark, Dice& dice) {
-  const bool plain = dice.chance(0.3);
+  const bool plain = dice.chance(0.4);
   Faults faults;
   faults.depth = draw_depth(rope, view, plain, dark, dice);
   faults.clutter = dice.chance(0.35);

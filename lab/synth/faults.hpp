@@ -30,8 +30,9 @@ struct DepthFaults {
 };
 
 struct MaskFaults {
-  int ragged_px = 0;  ///< reach of a frayed border, at 640 px of width
-  int shift_px = 0;   ///< dilated (1) or eroded (-1)
+  int ragged_px = 0;           ///< reach of a frayed border, at 640 px of width
+  bool frayed_inwards = true;  ///< false for a thin rope, which would fall apart
+  int shift_px = 0;            ///< dilated (1) or eroded (-1)
   int specks = 0;
   std::vector<Stretch> gaps;
 };
@@ -44,7 +45,7 @@ struct Faults {
   bool clutter = false;
 };
 
-/// Of a scene of the wide split. Three scenes of ten have sensor noise only.
+/// Of a scene of the wide split. Two scenes of five have sensor noise only.
 [[nodiscard]] Faults draw_faults(const Rope& rope, const View& view, bool dark, Dice& dice);
 
 }  // namespace flowdlo::synth

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 namespace flowdlo::synth {
 namespace {
@@ -20,7 +21,7 @@ struct Wave {
   double phase;
 };
 
-std::vector<Wave> waves_of(const Heading& heading, Dice& dice) {
+std::vector<Wave> slow_waves(const Heading& heading, Dice& dice) {
   std::vector<Wave> waves;
   if (heading.swing > 0) {
     waves.push_back({heading.swing, dice.uniform(0.85, 1.15), dice.uniform(-0.4, 0.4)});
@@ -30,17 +31,20 @@ std::vector<Wave> waves_of(const Heading& heading, Dice& dice) {
     waves.push_back({dice.uniform(0.3, 1.0) * heading.wander / (1.0 + k),
                      dice.uniform(0.4, 1.0) * (k + 1), dice.uniform(0, kTurn)});
   }
+  return waves;
+}
+
+std::vector<Wave> fast_waves(const Heading& heading, Dice& dice) {
+  std::vector<Wave> waves;
   const int fast = heading.wiggle > 0 ? dice.integer(1, 2) : 0;
   for (int k = 0; k < fast; ++k) {
     waves.push_back(
-        {dice.uniform(0.5, 1.0) * heading.wiggle, dice.uniform(3.5, 8.0), dice.uniform(0, kTurn)});
+        {dice.uniform(0.5, 1.0) * heading.wiggle, dice.uniform(3.0, 6.0), dice.uniform(0, kTurn)});
   }
   return waves;
 }
 
-// Integrates the heading; its slope is scaled down where it would bend the rope too much.
-FlatPoints integrate(const Gauge& gauge, double turn, std::vector<Wave> waves, double start,
-                     std::size_t count) {
+double steepest_slope(double turn, const std::vector<Wave>& waves) {
   double steepest = 1e-9;
   for (std::size_t i = 0; i < kCoarse; ++i) {
     const double t = static_cast<double>(i) / kCoarse;
@@ -50,15 +54,45 @@ FlatPoints integrate(const Gauge& gauge, double turn, std::vector<Wave> waves, d
     }
     steepest = std::max(steepest, std::abs(slope));
   }
-  const double scale = std::min(1.0, gauge.length_m / gauge.least_bend_m / steepest);
+  return steepest;
+}
+
+// A rope's heading along it, nowhere steeper than its tightest bend allows.
+struct Course {
+  double start = 0;
+  double turn = 0;
+  std::vector<Wave> waves;
+};
+
+// Where all of it would bend the rope too much, the fast waves give way first.
+Course course_of(const Gauge& gauge, const Heading& heading, Dice& dice) {
+  Course course;
+  course.turn = heading.turn * dice.uniform(0.7, 1.0) * dice.sign();
+  course.start = dice.uniform(0, kTurn);
+  auto slow = slow_waves(heading, dice);
+  auto fast = fast_waves(heading, dice);
+  const double most = gauge.length_m / gauge.least_bend_m;
+  const double share = std::min(1.0, most / steepest_slope(course.turn, slow));
+  course.turn *= share;
+  for (Wave& wave : slow) wave.amplitude *= share;
+  const double left = most - steepest_slope(course.turn, slow);
+  const double fine = std::clamp(left / steepest_slope(0, fast), 0.0, 1.0);
+  for (Wave& wave : fast) wave.amplitude *= fine;
+  course.waves = std::move(slow);
+  course.waves.insert(course.waves.end(), fast.begin(), fast.end());
+  return course;
+}
+
+FlatPoints integrate(const Gauge& gauge, const Course& course, std::size_t count) {
   const double step = gauge.length_m / static_cast<double>(count);
   FlatPoints points{Vector2d::Zero()};
   points.reserve(count + 1);
   for (std::size_t i = 0; i < count; ++i) {
     const double t = (static_cast<double>(i) + 0.5) / static_cast<double>(count);
-    double angle = turn * t;
-    for (const Wave& w : waves) angle += w.amplitude * std::sin(kTurn * w.frequency * t + w.phase);
-    angle = start + scale * angle;
+    double angle = course.start + course.turn * t;
+    for (const Wave& w : course.waves) {
+      angle += w.amplitude * std::sin(kTurn * w.frequency * t + w.phase);
+    }
     points.emplace_back(points.back() + step * Vector2d(std::cos(angle), std::sin(angle)));
   }
   return points;
@@ -123,15 +157,13 @@ void bend_axis(FlatPoints& points, const Gauge& gauge, Dice& dice) {
 
 std::optional<FlatPoints> wandering(const Gauge& gauge, const Heading& heading, Dice& dice) {
   for (int k = 0; k < kAttempts; ++k) {
-    const double turn = heading.turn * dice.uniform(0.7, 1.0) * dice.sign();
-    const auto waves = waves_of(heading, dice);
-    const double start = dice.uniform(0, kTurn);
-    const FlatPoints coarse = integrate(gauge, turn, waves, start, kCoarse);
+    const Course course = course_of(gauge, heading, dice);
+    const FlatPoints coarse = integrate(gauge, course, kCoarse);
     const double step = gauge.length_m / kCoarse;
     const auto all = crossings(coarse);
     if (!fits(all, heading, gauge, step, kCoarse)) continue;
     if (!clear(coarse, all, gauge, step)) continue;
-    return integrate(gauge, turn, waves, start, std::max(kCoarse, fine_count(gauge)));
+    return integrate(gauge, course, std::max(kCoarse, fine_count(gauge)));
   }
   return std::nullopt;
 }
@@ -201,12 +233,12 @@ FlatPoints ring(const Gauge& gauge, Dice& dice) {
   const double three = dice.uniform(-0.3, 0.3) * std::max(0.0, stretch);
   const double phase = dice.uniform(0, kTurn);
   const bool overlap = dice.chance(0.4);  // the ends pass each other side by side
-  const double gap = r * dice.uniform(2.02, 2.6);
+  const double gap = r * dice.uniform(2.03, 2.25);
   const double extra = overlap ? dice.uniform(6, 25) * r / mean : -gap / mean;
   FlatPoints points;
   for (double angle = 0; angle < kTurn + extra; angle += 0.25 * r / mean) {
     const double shape = 1 + oval * std::cos(2 * angle + phase) + three * std::cos(3 * angle);
-    const double spiral = overlap ? 1.1 * gap * angle / kTurn : 0.0;
+    const double spiral = overlap ? gap * angle / kTurn : 0.0;
     points.emplace_back((mean * shape + spiral) * Vector2d(std::cos(angle), std::sin(angle)));
   }
   return points;

@@ -43,8 +43,8 @@ std::vector<std::uint32_t> border_of(const Picture& ideal, int width, int height
 }
 
 // Grows here and shrinks there, as a smooth field says; more growth than shrinkage, as masks bleed.
-void fray(const std::vector<std::uint32_t>& border, int reach, const PixelNoise& noise,
-          Canvas& canvas) {
+void fray(const std::vector<std::uint32_t>& border, int reach, bool inwards,
+          const PixelNoise& noise, Canvas& canvas) {
   const float cell = 5.0F * static_cast<float>(canvas.width) / 640.0F;
   for (const std::uint32_t pixel : border) {
     const int u = static_cast<int>(pixel) % canvas.width;
@@ -53,7 +53,7 @@ void fray(const std::vector<std::uint32_t>& border, int reach, const PixelNoise&
     const int grow =
         static_cast<int>(std::lround(2.4F * (field - 0.42F) * (0.5F + static_cast<float>(reach))));
     if (grow > 0) canvas.disc(u, v, grow, 255);
-    if (grow < 0) canvas.disc(u, v, std::min(-grow - 1, reach), 0);
+    if (grow < 0 && inwards) canvas.disc(u, v, std::min(-grow - 1, reach), 0);
   }
 }
 
@@ -87,7 +87,8 @@ std::vector<std::uint8_t> segmented_mask(const View& view, const Picture& ideal,
   const int scale = width > 960 ? 2 : 1;
   if (faults.ragged_px > 0 || faults.shift_px != 0) {
     const auto border = border_of(ideal, width, canvas.height);
-    if (faults.ragged_px > 0) fray(border, scale * faults.ragged_px, noise, canvas);
+    if (faults.ragged_px > 0)
+      fray(border, scale * faults.ragged_px, faults.frayed_inwards, noise, canvas);
     for (const std::uint32_t pixel : border) {
       const int u = static_cast<int>(pixel) % width;
       const int v = static_cast<int>(pixel) / width;

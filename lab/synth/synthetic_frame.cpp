@@ -36,7 +36,7 @@ struct Stage {
 std::string_view scenario_of(const SceneKey& key) {
   if (key.split == Split::kThesis) return thesis_group(key.part, key.index);
   Dice dice(key, Use::kScenario);
-  return kWideScenarios[dice.pick({14, 14, 15, 9, 13, 9, 9, 10, 7})];
+  return kWideScenarios[dice.pick({18, 13, 14, 11, 12, 8, 8, 9, 7})];
 }
 
 bool set_up_thesis(std::string_view scenario, Dice& ropes, Dice& views, Stage& stage) {

@@ -97,7 +97,7 @@ struct Meta {
   /// Neither crossing nor gap nor bad depth nor anything else of hard().
   [[nodiscard]] bool easy() const {
     return crossings == 0 && !hard() && !defects.hidden_end && !defects.outside &&
-           !defects.depth_turn && !defects.black_or_shiny;
+           !defects.mask_gaps && !defects.black_or_shiny;
   }
 };
 

@@ -66,8 +66,10 @@ std::optional<Rope> try_wide_rope(std::string_view scenario, Dice& dice) {
   rope.scenario = scenario;
   const bool loops = scenario == "crossings" || scenario == "hanging-loops";
   const bool coil = scenario == "coil";
-  const double least = coil ? 130 : loops ? 90 : scenario == "table" ? 25 : 50;
-  const Gauge gauge = gauge_of(least, coil ? 600 : 1500, dice);
+  const bool folded = scenario == "hairpin" || scenario == "side-by-side";
+  const double least = coil ? 130 : loops || folded ? 90 : scenario == "table" ? 25 : 50;
+  Gauge gauge = gauge_of(least, coil ? 600 : 1500, dice);
+  if (folded) gauge.least_bend_m = gauge.radius_m * dice.uniform(4.0, 7.0);
   rope.radius_m = gauge.radius_m;
   rope.coil = coil;
   if (scenario == "hanging" || scenario == "hanging-loops") {
