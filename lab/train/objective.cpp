@@ -23,9 +23,10 @@ Tensor in_metres(const Tensor& nodes, const Tensor& norm) {  // Norm^-1, Eq. (3.
 }
 
 Tensor primary_loss(const weights::Variant& variant, const ObjectiveConfig& config,
-                    const Tensor& output, const Tensor& clean, const Target& target) {
+                    const Tensor& output, const Tensor& clean, const Tensor& weight,
+                    const Target& target) {
   if (config.kind == ObjectiveKind::kRobust) {
-    return huber_loss(clean, target.truth, config.huber_delta);
+    return (huber_loss(clean, target.truth, config.huber_delta) * weight).mean();
   }
   if (variant.parameterization == ops::Parameterization::kDirect) {
     return direct_loss(in_metres(clean, target.norm), in_metres(target.truth, target.norm));
@@ -62,11 +63,16 @@ Tensor direct_loss(const Tensor& nodes_m, const Tensor& truth_m) {
 
 Tensor huber_loss(const Tensor& nodes, const Tensor& truth, double delta) {
   const Tensor square = (nodes - truth).square().sum(-1);
-  return (delta * ((1 + square / (delta * delta)).sqrt() - 1)).mean();
+  return (delta * ((1 + square / (delta * delta)).sqrt() - 1)).mean(1);
 }
 
 Tensor harm_loss(const Tensor& nodes, const Tensor& prior, const Tensor& truth) {
-  return torch::relu(length(nodes - truth) - length(prior - truth)).mean();
+  return torch::relu(length(nodes - truth) - length(prior - truth)).mean(1);
+}
+
+Tensor record_weight(const Tensor& prior, const Tensor& truth, double balance) {
+  const Tensor error = (prior - truth).norm(2, -1).mean(1);
+  return (kBalanceFloor / (error + kBalanceFloor)).pow(balance);
 }
 
 Tensor sigma_loss(const Tensor& log_sigma, const Tensor& nodes, const Tensor& truth) {
@@ -90,10 +96,11 @@ Losses objective(const weights::Variant& variant, const ObjectiveConfig& config,
                  const Tensor& output, const Target& target) {
   const Tensor clean = clean_state(variant, output, target);
   Losses losses;
-  losses.primary = primary_loss(variant, config, output, clean, target);
+  const Tensor weight = record_weight(target.prior, target.truth, config.balance);
+  losses.primary = primary_loss(variant, config, output, clean, weight, target);
   losses.spacing = spacing_loss(clean, target.truth);
   losses.bending = bending_loss(clean);
-  losses.harm = harm_loss(clean, target.prior, target.truth);
+  losses.harm = (harm_loss(clean, target.prior, target.truth) * weight).mean();
   losses.total = losses.primary + config.spacing * losses.spacing + config.bending * losses.bending;
   if (config.harm > 0) losses.total = losses.total + config.harm * losses.harm;
   losses.sigma = torch::zeros_like(losses.primary);

@@ -40,13 +40,19 @@ struct Losses {
 /// Smooth L1 with beta 0.02 m, mean over coordinates; both [B, 64, 3] in metres. Sec. 3.5.
 [[nodiscard]] torch::Tensor direct_loss(const torch::Tensor& nodes_m, const torch::Tensor& truth_m);
 
-/// Mean over nodes of delta (sqrt(1 + |e|^2 / delta^2) - 1): |e|^2 / 2 delta near zero, |e| beyond.
+/// [B] mean over nodes of delta (sqrt(1 + |e|^2 / delta^2) - 1): |e|^2 / 2 delta near zero, |e|
+/// beyond.
 [[nodiscard]] torch::Tensor huber_loss(const torch::Tensor& nodes, const torch::Tensor& truth,
                                        double delta);
 
-/// Mean over nodes of how much farther from the truth a node is than its prior; 0 where it is not.
+/// [B] mean over nodes of how much farther from the truth a node is than its prior; 0 where it is
+/// not.
 [[nodiscard]] torch::Tensor harm_loss(const torch::Tensor& nodes, const torch::Tensor& prior,
                                       const torch::Tensor& truth);
+
+/// [B] what a record weighs, ObjectiveConfig::balance; at most 1.
+[[nodiscard]] torch::Tensor record_weight(const torch::Tensor& prior, const torch::Tensor& truth,
+                                          double balance);
 
 /// Mean negative log-likelihood, up to a constant, of node errors under a 3D Student t of scale
 /// exp(log_sigma) [B, 64] and four degrees of freedom. Errors pass no gradient to the nodes.

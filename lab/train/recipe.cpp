@@ -94,6 +94,7 @@ void visit(Visitor& visitor, Recipe& recipe) {
     v.real("bending", objective.bending, 0, 1e3);
     v.real("huber_delta", objective.huber_delta, 1e-6, 1e3);
     v.real("harm", objective.harm, 0, 1e3);
+    v.real("balance", objective.balance, 0, 1);
     v.real("sigma", objective.sigma, 0, 1e3);
   });
   visitor.group("optimizer", [&](Visitor& v) {
@@ -102,6 +103,7 @@ void visit(Visitor& visitor, Recipe& recipe) {
     v.whole("steps", optimizer.steps, 1, kMany);
     v.real("rate", optimizer.rate, 0, 1);
     v.real("final_rate", optimizer.final_rate, 0, 1);
+    v.real("head_rate", optimizer.head_rate, 0, 1e3);
     v.whole("warmup_steps", optimizer.warmup_steps, 0, kMany);
     v.real("beta1", optimizer.beta1, 0, 0.9999999);
     v.real("beta2", optimizer.beta2, 0, 0.9999999);

@@ -35,8 +35,13 @@ struct ObjectiveConfig {
   double bending = 0.01;      ///< lambda_bending, Sec. 4.1.3
   double huber_delta = 0.01;  ///< normalised units
   double harm = 0;            ///< weight of being worse than the prior, node by node
-  double sigma = 0;           ///< weight of the log-sigma head's likelihood
+  /// Robust: a record weighs (f / (e + f))^balance, e its prior's error and f kBalanceFloor, so
+  /// that the many records whose prior is nearly right are heard beside the few that are far off.
+  double balance = 0;
+  double sigma = 0;  ///< weight of the log-sigma head's likelihood
 };
+
+inline constexpr double kBalanceFloor = 0.01;  ///< normalised units
 
 enum class Precision { kF32, kBf16 };
 
@@ -45,11 +50,12 @@ struct OptimizerConfig {
   int steps = 20000;
   double rate = 3e-4;
   double final_rate = 3e-6;
+  double head_rate = 1;  ///< of the head, times `rate`: a small prior_sd needs large outputs
   int warmup_steps = 0;
   double beta1 = 0.9;
   double beta2 = 0.999;
   double epsilon = 1e-8;
-  double weight_decay = 0;  ///< of matrices; biases, norms, tables and gamma never decay
+  double weight_decay = 0;  ///< of matrices; head, biases, norms, e_j and gamma never decay
   double clip_norm = 0;     ///< of the whole gradient; 0: none
   double ema_decay = 0;     ///< 0: the last weights themselves are exported
   Precision precision = Precision::kBf16;

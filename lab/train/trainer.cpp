@@ -28,9 +28,11 @@ ViewConfig view_of(const TrainingState& state) {
   return {state.recipe.variant.normalization, state.norm, state.recipe.sampling.truth_direction};
 }
 
-void set_rate(torch::optim::AdamW& optimizer, double rate) {
-  for (auto& group : optimizer.param_groups()) {
-    static_cast<torch::optim::AdamWOptions&>(group.options()).lr(rate);
+void set_rate(torch::optim::AdamW& optimizer, double rate, double head_factor) {
+  auto& groups = optimizer.param_groups();
+  for (std::size_t i = 0; i < groups.size(); ++i) {
+    const double factor = i == kHeadGroup ? head_factor : 1;
+    static_cast<torch::optim::AdamWOptions&>(groups[i].options()).lr(rate * factor);
   }
 }
 
@@ -184,7 +186,7 @@ StepReport train_step(TrainingState& state, const Batch& batch) {
   const auto& recipe = state.recipe;
   StepReport report;
   report.rate = learning_rate(recipe.optimizer, state.step);
-  set_rate(*state.optimizer, report.rate);
+  set_rate(*state.optimizer, report.rate, recipe.optimizer.head_rate);
   state.optimizer->zero_grad();
   const Tensor output = state.model->forward(batch.input, compute_type(recipe));
   const Losses losses = objective(recipe.variant, recipe.objective, output, batch.target);

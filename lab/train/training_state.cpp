@@ -29,12 +29,16 @@ std::unique_ptr<torch::optim::AdamW> make_optimizer(const Recipe& recipe,
   };
   std::vector<Tensor> decaying;
   std::vector<Tensor> others;
+  std::vector<Tensor> head;
   for (const auto& item : model.named_parameters()) {
-    (decays(item.key(), item.value()) ? decaying : others).push_back(item.value());
+    const bool of_head = item.key().starts_with("head.");
+    auto& group = of_head ? head : decays(item.key(), item.value()) ? decaying : others;
+    group.push_back(item.value());
   }
   std::vector<torch::optim::OptimizerParamGroup> groups;
   groups.emplace_back(decaying, options(config.weight_decay));
   groups.emplace_back(others, options(0));
+  groups.emplace_back(head, options(0));  // kHeadGroup
   return std::make_unique<torch::optim::AdamW>(groups);
 }
 

@@ -15,6 +15,8 @@
 
 namespace flowdlo::train {
 
+inline constexpr std::size_t kHeadGroup = 2;  ///< of the optimiser's parameter groups
+
 struct TrainingState {
   Recipe recipe;
   std::string command;      ///< that started the run, for the metadata
