@@ -39,6 +39,7 @@ std::string meta_json(const Meta& meta) {
       {"crossings", meta.crossings},
       {"intersection", meta.intersection},
       {"hanging", meta.hanging},
+      {"square_ends", meta.square_ends},
       {"camera", meta.camera},
       {"distance_m", meta.distance_m},
       {"tilt_deg", meta.tilt_deg},

@@ -17,6 +17,7 @@ struct Rope {
   bool hanging = false;
   int grippers = 0;  ///< of a hanging rope: 1 holds its first end, 2 hold both
   bool coil = false;
+  bool square_ends = false;  ///< cut square; otherwise round caps reach a radius beyond the curve
 };
 
 inline constexpr std::array<std::string_view, 9> kThesisScenarios = {"C",

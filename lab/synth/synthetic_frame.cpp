@@ -114,6 +114,7 @@ void describe(const Stage& stage, const Material& material, Meta& meta) {
   meta.material = material.name;
   meta.band = material.band;
   meta.hanging = stage.rope.hanging;
+  meta.square_ends = stage.rope.square_ends;
   meta.camera = stage.view.sensor->name;
   meta.distance_m = stage.view.distance_m;
   meta.tilt_deg = stage.view.tilt_rad * 180 / std::numbers::pi;
@@ -150,7 +151,7 @@ Result<bool> Scene::stage_once(Dice& ropes, Dice& views, Dice& dice) {
   if (wide) stage_.faults = draw_faults(stage_.rope, stage_.view, material_->dark, dice);
   for (int k = 0; k < kStagings; ++k) {
     furnish(stage_, dice);
-    auto tracer = Tracer::create(stage_.view, stage_.rope.radius_m, stage_.things);
+    auto tracer = Tracer::create(stage_.view, stage_.rope, stage_.things);
     if (!tracer) return tracer.error();
     tracer_.emplace(std::move(*tracer));
     picture_ = tracer_->take_picture();

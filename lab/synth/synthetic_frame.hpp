@@ -72,6 +72,8 @@ struct Meta {
   bool intersection = false;       ///< crossings > 0: sampled twice as often, Sec. 4.1.3
   bool hanging = false;            ///< in free air, held at one or two places
 
+  bool square_ends = false;  ///< false: round caps reach a radius beyond the truth
+
   std::string camera;     ///< sensor and mode, such as "realsense_d435 848x480"
   double distance_m = 0;  ///< camera to the middle of the rope
   double tilt_deg = 0;    ///< 0: straight down onto the table; of a hanging rope, its plane's tilt

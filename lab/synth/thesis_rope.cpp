@@ -1,5 +1,7 @@
 // The nine groups of Sec. 4.1.1. The thesis names them without measures; "complicated" is read as
 // strong changes of direction, stretches that stand up from the table, and many loops.
+#include <utility>
+
 #include "synth/flat_shape.hpp"
 #include "synth/laid_rope.hpp"
 #include "synth/rope.hpp"
@@ -58,7 +60,11 @@ std::optional<Rope> try_thesis_rope(std::string_view scenario, Dice& dice) {
                       .arch_m = dice.uniform(0.01, 0.03)};
   auto curve = laid(*flat, gauge, laying, dice);
   if (!curve) return std::nullopt;
-  Rope rope{.scenario = scenario, .curve = std::move(*curve), .radius_m = gauge.radius_m};
+  Rope rope;
+  rope.scenario = scenario;
+  rope.curve = std::move(*curve);
+  rope.radius_m = gauge.radius_m;
+  rope.square_ends = dice.chance(0.5);
   if (!sound(rope)) return std::nullopt;
   return rope;
 }

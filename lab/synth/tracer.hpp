@@ -1,4 +1,4 @@
-// Tracer: primary rays and shadow rays, by Embree. The rope is a round Catmull-Rom curve.
+// Tracer: primary rays and shadow rays, by Embree. The rope is a round curve.
 #pragma once
 
 #include <cstdint>
@@ -32,8 +32,8 @@ struct Picture {
 
 class Tracer {
  public:
-  /// Fails with kInternal when Embree has no device or runs out of memory.
-  [[nodiscard]] static Result<Tracer> create(const View& view, double radius_m,
+  /// `view` must outlive it. Fails with kInternal when Embree has no device or no memory.
+  [[nodiscard]] static Result<Tracer> create(const View& view, const Rope& rope,
                                              std::span<const Thing> things);
 
   [[nodiscard]] Picture take_picture() const;

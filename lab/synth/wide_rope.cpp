@@ -72,6 +72,7 @@ std::optional<Rope> try_wide_rope(std::string_view scenario, Dice& dice) {
   if (folded) gauge.least_bend_m = gauge.radius_m * dice.uniform(4.0, 7.0);
   rope.radius_m = gauge.radius_m;
   rope.coil = coil;
+  rope.square_ends = dice.chance(0.5);
   if (scenario == "hanging" || scenario == "hanging-loops") {
     const Hanging hanging{.two_grippers = dice.chance(0.75),
                           .loops = scenario == "hanging" ? 0 : dice.integer(1, 2),
