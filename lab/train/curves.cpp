@@ -159,7 +159,9 @@ Result<void> plot_curves(const std::filesystem::path& folder) {
   const auto steps = read_rows(folder / "steps.csv");
   const auto checks = read_rows(folder / "validation.csv");
   std::vector<Panel> panels(4);
-  panels[0] = {"training losses", true, {column(steps, "primary"), column(steps, "harm")}};
+  panels[0] = {"training losses",
+               true,
+               {column(steps, "primary"), column(steps, "prior"), column(steps, "harm")}};
   panels[1] = {"shape and sigma terms", false, {column(steps, "spacing"), column(steps, "sigma")}};
   panels[2] = {"validation: mean index error, cm (prior dashed)", false, {}};
   panels[3] = {"validation: model / prior", false, {}};

@@ -104,6 +104,10 @@ Losses objective(const weights::Variant& variant, const ObjectiveConfig& config,
   losses.total = losses.primary + config.spacing * losses.spacing + config.bending * losses.bending;
   if (config.harm > 0) losses.total = losses.total + config.harm * losses.harm;
   losses.sigma = torch::zeros_like(losses.primary);
+  losses.prior = losses.sigma;
+  if (config.kind == ObjectiveKind::kRobust) {
+    losses.prior = (huber_loss(target.prior, target.truth, config.huber_delta) * weight).mean();
+  }
   if (variant.head_channels == 4) {
     losses.sigma = sigma_loss(output.select(-1, 3), clean, target.truth);
     if (config.sigma > 0) losses.total = losses.total + config.sigma * losses.sigma;

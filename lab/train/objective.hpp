@@ -25,6 +25,7 @@ struct Losses {
   torch::Tensor bending;  ///< Eq. (3.24)
   torch::Tensor harm;
   torch::Tensor sigma;
+  torch::Tensor prior;  ///< what `primary` would be for the prior itself; robust alone, else 0
 };
 
 /// Mean squared error of the velocity, Eq. (3.17).

@@ -199,6 +199,7 @@ StepReport train_step(TrainingState& state, const Batch& batch) {
   report.step = ++state.step;
   report.total = losses.total.item<double>();
   report.primary = losses.primary.item<double>();
+  report.prior = losses.prior.item<double>();
   report.spacing = losses.spacing.item<double>();
   report.bending = losses.bending.item<double>();
   report.harm = losses.harm.item<double>();

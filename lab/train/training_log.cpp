@@ -8,7 +8,7 @@ namespace flowdlo::train {
 namespace {
 
 constexpr const char* kStepsHeader =
-    "step,total,primary,spacing,bending,harm,sigma,rate,gradient_norm,records_per_s,records";
+    "step,total,primary,prior,spacing,bending,harm,sigma,rate,gradient_norm,records_per_s,records";
 constexpr const char* kValidationHeader =
     "step,group,records,prior_cm,model_cm,ratio,prior_median_cm,model_median_cm,prior_over_2cm,"
     "model_over_2cm,harmed,flips";
@@ -49,9 +49,10 @@ Result<TrainingLog> TrainingLog::open(const std::filesystem::path& folder, std::
 }
 
 void TrainingLog::add(const StepReport& r) {
-  steps_ << fmt::format("{},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.6g},{:.6g},{:.2f},{}\n",
-                        r.step, r.total, r.primary, r.spacing, r.bending, r.harm, r.sigma, r.rate,
-                        r.gradient_norm, r.records_per_s, r.records)
+  steps_ << fmt::format(
+                "{},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.6g},{:.6g},{:.2f},{}\n",
+                r.step, r.total, r.primary, r.prior, r.spacing, r.bending, r.harm, r.sigma, r.rate,
+                r.gradient_norm, r.records_per_s, r.records)
          << std::flush;
 }
 

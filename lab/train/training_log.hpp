@@ -14,6 +14,7 @@ struct StepReport {
   std::int64_t step = 0;
   double total = 0;
   double primary = 0;
+  double prior = 0;  ///< `primary` of the prior itself
   double spacing = 0;
   double bending = 0;
   double harm = 0;
