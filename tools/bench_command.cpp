@@ -18,6 +18,7 @@
 #include "flowdlo/estimator.hpp"
 #include "flowdlo/frame_folder.hpp"
 #include "frame/staged_files.hpp"
+#include "model_options.hpp"
 #include "progress_bar.hpp"
 
 namespace flowdlo::tools {
@@ -142,21 +143,7 @@ void add_bench_command(CLI::App& app, ExitCode& exit_code) {
   auto options = std::make_shared<BenchOptions>();
   auto* command = app.add_subcommand("bench", "Milliseconds a frame, stage by stage");
   command->add_option("FRAME", options->frame, "A frame folder [the one that ships]");
-  command->add_option("--weights", options->config.weights, "A .fdw file [the one that ships]")
-      ->type_name("FILE");
-  command
-      ->add_option("--device", options->config.device,
-                   "auto, vulkan, cpu, part of a device's name, or its UUID")
-      ->capture_default_str();
-  command->add_option("--threads", options->config.threads, "Of the CPU back end; 0: every core")
-      ->capture_default_str()
-      ->check(CLI::Range(0, 1024));
-  command->add_option("--draws", options->config.draws, "Gaussian sources a frame")
-      ->capture_default_str()
-      ->check(CLI::Range(1, 64));
-  command->add_option("--steps", options->config.euler_steps, "Euler steps of the model")
-      ->capture_default_str()
-      ->check(CLI::Range(1, 64));
+  add_model_options(*command, options->config);
   command->add_option("--frames", options->frames, "Calls to time, after the first")
       ->capture_default_str()
       ->check(CLI::Range(1, 1000000));

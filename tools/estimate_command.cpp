@@ -5,7 +5,6 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <filesystem>
-#include <map>
 #include <memory>
 #include <string>
 #include <system_error>
@@ -15,6 +14,7 @@
 #include "flowdlo/frame_folder.hpp"
 #include "frame_list.hpp"
 #include "frame_output.hpp"
+#include "model_options.hpp"
 #include "progress_bar.hpp"
 
 namespace flowdlo::tools {
@@ -128,39 +128,7 @@ void add_estimate_command(CLI::App& app, ExitCode& exit_code) {
   command->add_option("--out", options->out, "Results go to DIR/<frame name>/")
       ->required()
       ->type_name("DIR");
-  command->add_option("--weights", options->config.weights, "A .fdw file [the one that ships]")
-      ->type_name("FILE");
-  command
-      ->add_option("--device", options->config.device,
-                   "auto, vulkan, cpu, part of a device's name, or its UUID")
-      ->capture_default_str();
-  command->add_option("--steps", options->config.euler_steps, "Euler steps of the model")
-      ->capture_default_str()
-      ->check(CLI::Range(1, 64));
-  command->add_option("--draws", options->config.draws, "Gaussian sources a frame")
-      ->capture_default_str()
-      ->check(CLI::Range(1, 64));
-  command->add_option("--seed", options->config.seed, "Of the Gaussian sources")
-      ->capture_default_str()
-      ->check(CLI::NonNegativeNumber);
-  command->add_option("--threads", options->config.threads, "Of the CPU back end; 0: every core")
-      ->capture_default_str()
-      ->check(CLI::Range(0, 1024));
-  command
-      ->add_option("--prior", options->config.prior,
-                   "What the model refines: thesis (Eq. 3.1-3.7), refined (on the rope's axis), or "
-                   "auto, as the weights were trained")
-      ->transform(CLI::CheckedTransformer(
-          std::map<std::string, PriorChoice>{{"auto", PriorChoice::kOfWeights},
-                                             {"thesis", PriorChoice::kThesis},
-                                             {"refined", PriorChoice::kRefined}},
-          CLI::ignore_case))
-      ->type_name("KIND");
-  command
-      ->add_option("--rope-length", options->config.rope_length_m,
-                   "Metres, where the rope's length is known; 0: unknown")
-      ->capture_default_str()
-      ->check(CLI::NonNegativeNumber);
+  add_model_options(*command, options->config);
   command->add_flag("--tensors", options->tensors, "Write the model's tensors as .npy as well");
   command->add_flag("--quiet", options->quiet, "Print errors only");
   command->callback([options, &exit_code] { exit_code = run(*options); });

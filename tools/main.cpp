@@ -8,6 +8,7 @@
 #include "bench_command.hpp"
 #include "devices_command.hpp"
 #include "estimate_command.hpp"
+#include "eval_command.hpp"
 #include "exit_code.hpp"
 #include "flowdlo/version.hpp"
 #include "synth_command.hpp"
@@ -25,6 +26,7 @@ int main(int argc, char** argv) {
   add_synth_command(app, exit_code);
   add_weights_command(app, exit_code);
   add_bench_command(app, exit_code);
+  add_eval_command(app, exit_code);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& end) {  // --help and --version come this way as well

@@ -72,16 +72,15 @@ Result<void> Sampler::build() {
 
   VelocityModel model(program, *weights_, config_.draws, config_.steps);
   program.stage("visible_points");
-  program.record(ops::FarthestPoints{
-      .cloud = handles_.cloud, .params = handles_.params, .visible = visible});
+  program.record(
+      ops::FarthestPoints{.cloud = handles_.cloud, .params = handles_.params, .visible = visible});
   program.stage("conditions");
   if (metadata.variant.normalization == weights::NormalizationKind::kFrame) {
     program.record(ops::FrameNormalization{.points = visible, .norm = norm});
   } else {
     const std::array<float, 4> global{metadata.mean[0], metadata.mean[1], metadata.mean[2],
                                       metadata.scale};
-    program.record(
-        ops::Copy{.from = program.constant("global_norm", 1, 4, global), .to = norm});
+    program.record(ops::Copy{.from = program.constant("global_norm", 1, 4, global), .to = norm});
   }
   const Conditions conditions{.visible = visible,
                               .draw_prior = handles_.draw_prior,

@@ -1,8 +1,8 @@
 // Program: operations on tensors, recorded once, run once a frame.
 //
 // The velocity model and its sampler are written once, against this interface. Two rooms implement
-// it: `reference` (Eigen, the CPU back end) and `vulkan` (one submission a run). Every tensor is f32,
-// row-major, [rows, columns]. An operation sees the results of those recorded before it.
+// it: `reference` (Eigen, the CPU back end) and `vulkan` (one submission a run). Every tensor is
+// f32, row-major, [rows, columns]. An operation sees the results of those recorded before it.
 #pragma once
 
 #include <cstdint>
@@ -18,11 +18,11 @@
 
 namespace flowdlo::ops {
 
-inline constexpr int kWidth = 256;         ///< d, spec section 6
-inline constexpr int kHeads = 8;           ///< spec section 6
-inline constexpr int kHeadWidth = 32;      ///< kWidth / kHeads
-inline constexpr int kRowsPerDraw = 64;    ///< N
-inline constexpr int kVisibleRows = 256;   ///< K_obs
+inline constexpr int kWidth = 256;        ///< d, spec section 6
+inline constexpr int kHeads = 8;          ///< spec section 6
+inline constexpr int kHeadWidth = 32;     ///< kWidth / kHeads
+inline constexpr int kRowsPerDraw = 64;   ///< N
+inline constexpr int kVisibleRows = 256;  ///< K_obs
 inline constexpr float kLayerNormEpsilon = 1e-5F;
 
 struct Tensor {
@@ -82,7 +82,8 @@ struct LayerNorm {
 /// Row r's query is query[r, query_column + 32 h ...]; keys and values are columns key_column and
 /// value_column of `key_value`. `per_draw`: row r sees the 64 rows of its own draw (r / 64);
 /// otherwise every row sees all rows of key_value (256). Where `key_valid` is given
-/// [key_value.rows, 4], keys whose column 3 is below 0.5 are left out; no key left: the output is 0.
+/// [key_value.rows, 4], keys whose column 3 is below 0.5 are left out; no key left: the output is
+/// 0.
 struct Attention {
   Tensor query;
   int query_column = 0;

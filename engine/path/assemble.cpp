@@ -6,6 +6,8 @@
 #include <opencv2/imgproc.hpp>
 #include <utility>
 
+#include "path/cover.hpp"
+#include "path/gap_curve.hpp"
 #include "path/midline.hpp"
 
 namespace flowdlo::path {
@@ -129,16 +131,20 @@ bool side_by_side(const Strands& strands, const std::vector<int>& way) {
 
 // Through a crossing the cubic is the better guess (the skeleton there is pulled to the middle),
 // as long as it stays in the mask; otherwise the skeleton is followed.
-void draw_bond(const Strands& strands, const Region& region, const StrandEnd& from,
-               const StrandEnd& to, Drawn& drawn) {
-  const bool gap = from.tip() || to.tip();
+void draw_bond(const Strands& strands, const Region& region, const Cover& cover,
+               const StrandEnd& from, const StrandEnd& to, Drawn& drawn) {
+  const bool gap = from.tip() || to.tip() || from.crossing != to.crossing;
+  if (gap) {
+    for (const Vector2f& p : gap_points(from, to, cover, strands.scale_px)) drawn.add(p, true);
+    return;
+  }
   std::vector<int> way;
-  if (!gap && from.node != to.node) way = bridges_between(strands, from.node, to.node);
+  if (from.node != to.node) way = bridges_between(strands, from.node, to.node);
   Points points = cubic(from, to);
   if (!way.empty() && (side_by_side(strands, way) || !inside(points, region.mask))) {
     points = along_bridges(strands, region.distance_px, way, from, to);
   }
-  for (const Vector2f& p : points) drawn.add(p, gap);
+  for (const Vector2f& p : points) drawn.add(p, false);
 }
 
 // An end at a crossing touches the other strand, or lies on it, or hardly shows behind it. Straight
@@ -207,6 +213,7 @@ Path to_image(const Drawn& drawn, const Region& region, const Frame& frame) {
 
 Path assemble(const Traversal& traversal, const Strands& strands, const Region& region,
               const Frame& frame) {
+  const Cover cover(region, frame, strands.width_px);
   Drawn drawn;
   const StrandEnd& first = strands.end(traversal.enters.front());
   const StrandEnd& last = strands.end(traversal.enters.back() ^ 1);
@@ -217,8 +224,8 @@ Path assemble(const Traversal& traversal, const Strands& strands, const Region& 
   for (std::size_t i = 0; i < traversal.enters.size(); ++i) {
     const int enter = traversal.enters[i];
     if (i > 0) {
-      draw_bond(strands, region, strands.end(traversal.enters[i - 1] ^ 1), strands.end(enter),
-                drawn);
+      draw_bond(strands, region, cover, strands.end(traversal.enters[i - 1] ^ 1),
+                strands.end(enter), drawn);
     }
     Points points = strands.list[enter / 2].points_px;
     if (enter % 2 == 1) std::reverse(points.begin(), points.end());

@@ -4,6 +4,9 @@
 #include <cmath>
 #include <map>
 
+#include "path/cover.hpp"
+#include "path/gap_curve.hpp"
+
 namespace flowdlo::path {
 namespace {
 
@@ -15,22 +18,20 @@ constexpr std::size_t kMostAtCrossing = 64;
 constexpr float kMostBending = 20.0F;
 constexpr float kChangeSides = 4.0F;
 constexpr float kKeepSides = 1.0F;
-constexpr float kLongWidths = 6.0F;     // bridges from this length on,
-constexpr float kCurved = 0.6F;         // or that turn by this angle (rad)
-constexpr float kKnownWidths = 3.0F;    // strands shorter than this are trusted less,
-constexpr float kLeastTrust = 0.35F;    // down to this
-constexpr float kGapBending = 0.4F;     // a hidden stretch may bend
-constexpr float kGapStart = 0.5F;       // a gap costs this,
-constexpr float kGapWidths = 6.0F;      // and one more for each six widths of it
-constexpr float kGapAtCrossing = 1.5F;  // more, where one side is no tip
+constexpr float kLongWidths = 6.0F;        // bridges from this length on,
+constexpr float kCurved = 0.6F;            // or that turn by this angle (rad)
+constexpr float kKnownWidths = 3.0F;       // strands shorter than this are trusted less,
+constexpr float kLeastTrust = 0.35F;       // down to this
+constexpr float kGapWidths = 6.0F;         // no curve costs less a width than one in so many
+constexpr float kGapStart = 0.5F;          // a gap costs this beside its curve
+constexpr float kGapAtCrossing = 1.5F;     // more, where one side is no tip
+constexpr float kGapAtCutCrossing = 0.3F;  // less, where an occluder begins there
 constexpr float kMostGapCost = 16.0F;
 constexpr float kDepthWeight = 1.5F;
 constexpr float kMostDepthCost = 5.0F;
 constexpr float kDepthNoise_m = 0.002F;
-constexpr float kDepthNoise = 0.18F;     // metres of depth a metre through a crossing
-constexpr float kGapDepthNoise = 0.3F;   // and across a gap
-constexpr float kBackgroundCost = 2.5F;  // where the sensor looks through the gap
-constexpr float kBackground_m = 0.03F;   // behind the rope by more than this
+constexpr float kDepthNoise = 0.18F;    // metres of depth a metre through a crossing
+constexpr float kGapDepthNoise = 0.3F;  // and across a gap
 
 float angle(const Vector2f& from, const Vector2f& to) {
   return std::atan2(from.x() * to.y() - from.y() * to.x(), from.dot(to));
@@ -92,29 +93,13 @@ float passing(const Strands& strands, const Bridge& bridge, const StrandEnd& fro
   return cost + sure * (left_at_front == left_at_back ? kKeepSides * upon : kChangeSides * beside);
 }
 
-// Share of the gap through which the sensor sees something well behind the rope: no occluder.
-float background_share(const StrandEnd& from, const StrandEnd& to, const Region& region,
-                       const Frame& frame) {
-  if (from.depth_m <= 0 || to.depth_m <= 0) return 0;
-  constexpr int kSamples = 9;
-  int behind = 0;
-  for (int i = 1; i <= kSamples; ++i) {
-    const float t = static_cast<float>(i) / (kSamples + 1);
-    const Vector2f p = (1 - t) * from.point_px + t * to.point_px;
-    const int u = static_cast<int>(std::lround(p.x())) + region.offset_px.x;
-    const int v = static_cast<int>(std::lround(p.y())) + region.offset_px.y;
-    if (u < 0 || v < 0 || u >= frame.width || v >= frame.height) continue;
-    const float z = frame.depth_m[static_cast<std::size_t>(v) * frame.width + u];
-    const float rope = (1 - t) * from.depth_m + t * to.depth_m;
-    if (std::isfinite(z) && z > rope + kBackground_m) ++behind;
-  }
-  return static_cast<float>(behind) / kSamples;
-}
-
 class Builder {
  public:
   Builder(const Strands& strands, const Region& region, const Frame& frame)
-      : strands_(strands), region_(region), frame_(frame), bonds_(2 * strands.list.size()) {
+      : strands_(strands),
+        frame_(frame),
+        cover_(region, frame, strands.width_px),
+        bonds_(2 * strands.list.size()) {
     for (const Bridge& bridge : strands.bridges) {
       bridges_.try_emplace({bridge.node[0], bridge.node[1]}, &bridge);
       bridges_.try_emplace({bridge.node[1], bridge.node[0]}, &bridge);
@@ -178,8 +163,20 @@ class Builder {
     keep_longest(crossed, kMostTips);
     for (std::size_t i = 0; i < tips.size(); ++i) {
       for (std::size_t j = i + 1; j < tips.size(); ++j) link(tips[i], tips[j], 0);
-      for (const int end : crossed) link(tips[i], end, kGapAtCrossing);
+      for (const int end : crossed) link(tips[i], end, extra_at(end));
     }
+    for (std::size_t i = 0; i < crossed.size(); ++i) {
+      for (std::size_t j = i + 1; j < crossed.size(); ++j) {
+        const StrandEnd& a = strands_.end(crossed[i]);
+        const StrandEnd& b = strands_.end(crossed[j]);
+        if (!a.cut || !b.cut || a.crossing == b.crossing) continue;
+        link(crossed[i], crossed[j], extra_at(crossed[i]) + extra_at(crossed[j]));
+      }
+    }
+  }
+
+  [[nodiscard]] float extra_at(int end) const {
+    return strands_.end(end).cut ? kGapAtCutCrossing : kGapAtCrossing;
   }
 
   void keep_longest(std::vector<int>& ends, std::size_t most) const {
@@ -192,22 +189,21 @@ class Builder {
 
   void link(int a, int b, float extra) {
     if (a / 2 == b / 2) return;
-    const float cost = extra + gap_cost(strands_.end(a), strands_.end(b));
+    const float cost = extra + cost_across(strands_.end(a), strands_.end(b));
     if (cost < kMostGapCost) add(a, b, cost, true);
   }
 
-  [[nodiscard]] float gap_cost(const StrandEnd& a, const StrandEnd& b) const {
-    const float widths = (a.point_px - b.point_px).norm() / strands_.scale_px;
-    const float cost =
-        kGapStart + widths / kGapWidths + kGapBending * bending(a, b, strands_.scale_px);
-    if (cost >= kMostGapCost) return cost;
-    return cost + depth_misfit(a, b, strands_.width_px, frame_.intrinsics.fx, true) +
-           kBackgroundCost * background_share(a, b, region_, frame_);
+  [[nodiscard]] float cost_across(const StrandEnd& a, const StrandEnd& b) const {
+    const float scale = strands_.scale_px;
+    const float straight = kGapStart + (a.point_px - b.point_px).norm() / (kGapWidths * scale);
+    if (straight >= kMostGapCost) return straight;
+    return kGapStart + gap_cost(a, b, cover_, scale) +
+           depth_misfit(a, b, strands_.width_px, frame_.intrinsics.fx, true);
   }
 
   const Strands& strands_;
-  const Region& region_;
   const Frame& frame_;
+  Cover cover_;
   std::vector<std::vector<Bond>> bonds_;
   std::map<std::pair<int, int>, const Bridge*> bridges_;  // between two nodes
 };

@@ -12,7 +12,9 @@ using Points = std::vector<Vector2f>;
 
 constexpr float kTangentWidths = 1.5F;  // length over which a direction is fitted
 constexpr float kTangentPx = 8.0F;
-constexpr float kMostReach = 0.8F;  // widths from the line to the mask's edge, at most
+constexpr float kCurvatureWidths = 4.0F;  // length that tells a curvature
+constexpr float kTightestWidths = 1.5F;   // radius of the tightest bend
+constexpr float kMostReach = 0.8F;        // widths from the line to the mask's edge, at most
 constexpr float kStepPx = 0.5F;
 
 bool empty(const cv::Mat& mask, const Vector2f& p) {
@@ -90,6 +92,22 @@ Vector2f direction_at_front(const Points& points, float scale_px) {
   if (norm > 0) return slope / norm;
   const Vector2f chord = points.front() - points.back();
   return chord.norm() > 0 ? Vector2f(chord.normalized()) : Vector2f(1, 0);
+}
+
+float curvature_at_front(const Points& points, float scale_px) {
+  const int last = static_cast<int>(points.size()) - 1;
+  const int reach = std::min(last, static_cast<int>(kCurvatureWidths * scale_px));
+  if (reach < 4) return 0;
+  const Vector2f& far = points[reach];
+  const Vector2f& middle = points[reach / 2];
+  const Vector2f in = middle - far;
+  const Vector2f out = points.front() - middle;
+  const float product = in.norm() * out.norm() * (in + out).norm();
+  if (!(product > 0)) return 0;
+  const float curvature = 2 * (in.x() * out.y() - in.y() * out.x()) / product;
+  const float limit = 1 / (kTightestWidths * scale_px);
+  const float known = static_cast<float>(reach) / (kCurvatureWidths * scale_px);
+  return known * std::clamp(curvature, -limit, limit);
 }
 
 }  // namespace flowdlo::path

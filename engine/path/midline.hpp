@@ -18,4 +18,8 @@ void recentre(std::vector<Eigen::Vector2f>& points, const cv::Mat& mask, float w
 [[nodiscard]] Eigen::Vector2f direction_at_front(const std::vector<Eigen::Vector2f>& points,
                                                  float scale_px);
 
+/// Curvature (1 / px) of the line at its front, walking off it; positive from x to y. Less than it
+/// looks where the line is too short to tell.
+[[nodiscard]] float curvature_at_front(const std::vector<Eigen::Vector2f>& points, float scale_px);
+
 }  // namespace flowdlo::path

@@ -8,7 +8,9 @@
 
 #include "path/assemble.hpp"
 #include "path/bonds.hpp"
+#include "path/cover.hpp"
 #include "path/graph.hpp"
+#include "path/hidden_forks.hpp"
 #include "path/region.hpp"
 #include "path/search.hpp"
 #include "path/strands.hpp"
@@ -117,7 +119,8 @@ std::vector<Path> ranked_paths(const Strands& strands, const Region& region, con
 Result<Traversals> trace_region(const Frame& frame, const TraceConfig& asked) {
   auto region = clean(frame);
   if (!region) return region.error();
-  const Graph graph = graph_of(*region);
+  Graph graph = graph_of(*region);
+  split_at_hidden_forks(graph, Cover(*region, frame, graph.width_px));
   const Strands strands = make_strands(graph, *region, frame);
   TraceConfig config = asked;
   config.alternatives = std::clamp(asked.alternatives, 0, kMostAlternatives);

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "path/seams.hpp"
+
 namespace flowdlo::path {
 namespace {
 
@@ -14,6 +16,8 @@ constexpr int kSpeckAreaPx = 12;            // below this no direction can be to
 constexpr float kSpeckWidths = 0.6F;        // components below this times width^2 are noise
 constexpr float kHoleSpecksWidths = 0.05F;  // holes below this times width^2 are noise
 constexpr float kHighlightWidths = 0.68F;   // filled half-width up to which a hole is a highlight
+constexpr float kNarrowShare = 0.75F;       // narrow parts below this share of the usual width
+constexpr float kStubbyWidths = 30.0F;      // strands beside each other, when shorter than this
 constexpr float kHighlightArea = 6.0F;      // and its area in width^2, at most
 
 cv::Rect bounding_box(const Frame& frame) {
@@ -55,10 +59,15 @@ cv::Mat distance_of(const cv::Mat& mask) {
   return distance;
 }
 
+struct Widths {
+  float usual_px = 1;
+  float narrow_px = 1;
+};
+
 // Median width over ridges of the distance, each weighted by its distance (frayed borders have
 // many ridges, but low ones), and only those not much higher than the low ones: where strands lie
 // beside each other the mask is twice as wide.
-float ridge_width(const cv::Mat& distance) {
+Widths ridge_widths(const cv::Mat& distance) {
   std::vector<double> weight(512, 0.0);
   for (int v = 1; v + 1 < distance.rows; ++v) {
     const float* up = distance.ptr<float>(v - 1);
@@ -86,7 +95,40 @@ float ridge_width(const cv::Mat& distance) {
   };
   const std::size_t narrow = quantile(0.2, weight.size());
   const std::size_t usual = quantile(0.5, std::min(weight.size(), narrow * 3 / 2 + 1));
-  return std::max(1.0F, width_at(static_cast<float>(usual) * 0.5F));
+  const auto width = [](std::size_t bin) {
+    return std::max(1.0F, width_at(static_cast<float>(bin) * 0.5F));
+  };
+  return {width(usual), width(quantile(0.05, weight.size()))};
+}
+
+// The seams at the scale of the rope's width. Where all of the mask is short for its width, that
+// may be the width of two strands or three.
+cv::Mat seams_of(const Region& region, const Widths& widths, const Frame& frame) {
+  const auto at = [&](float usual_px, float narrow_px) {
+    return find_seams(region.mask, {region.offset_px, usual_px, narrow_px}, frame);
+  };
+  const float narrow_px = std::max(widths.narrow_px, 0.5F * widths.usual_px);  // borders fray
+  const auto area = static_cast<float>(cv::countNonZero(region.mask));
+  if (area > kStubbyWidths * widths.usual_px * widths.usual_px)
+    return at(widths.usual_px, widths.usual_px);
+  cv::Mat seams;
+  if (narrow_px < kNarrowShare * widths.usual_px) seams = at(narrow_px, narrow_px);
+  for (const float share : {1.0F, 0.5F, 0.33F}) {
+    if (seams.empty())
+      seams = at(share * widths.usual_px, std::min(share * widths.usual_px, narrow_px));
+  }
+  return seams;
+}
+
+// Cuts the mask along its seams; leaves the width that one strand has.
+void cut_seams(const Frame& frame, Region& region) {
+  const Widths widths = ridge_widths(region.distance_px);
+  region.width_px = widths.usual_px;
+  region.seams = seams_of(region, widths, frame);
+  if (region.seams.empty()) return;
+  region.mask.setTo(0, region.seams);
+  region.distance_px = distance_of(region.mask);
+  region.width_px = ridge_widths(region.distance_px).usual_px;
 }
 
 // Erases the components below `least_area`; returns the largest one's area, 0 if none is left.
@@ -165,13 +207,16 @@ bool fill_highlights(cv::Mat& mask, float width) {
 Region smoothed(const Region& region, int size_px) {
   Region result = region;
   cv::Mat share;
-  region.mask.convertTo(share, CV_8U, 255.0);
+  const bool cut = !region.seams.empty();
+  cv::Mat(cut ? cv::Mat(region.mask | region.seams) : region.mask).convertTo(share, CV_8U, 255.0);
   cv::boxFilter(share, share, CV_8U, {size_px, size_px}, {-1, -1}, true, cv::BORDER_CONSTANT);
   result.mask = cv::Mat(share > 127) / 255;
+  if (cut) result.mask.setTo(0, region.seams);
   if (erase_specks(result.mask, kSpeckWidths * region.width_px * region.width_px) == 0) {
     return region;
   }
   fill_highlights(result.mask, region.width_px);
+  if (cut) result.mask.setTo(0, region.seams);
   result.distance_px = distance_of(result.mask);
   return result;
 }
@@ -192,11 +237,12 @@ Result<Region> clean(const Frame& frame) {
                                          " pixels; check the segmentation"};
   }
   region.distance_px = distance_of(region.mask);
-  region.width_px = ridge_width(region.distance_px);
+  cut_seams(frame, region);
   erase_specks(region.mask, kSpeckWidths * region.width_px * region.width_px);
   fill_highlights(region.mask, region.width_px);
+  if (!region.seams.empty()) region.mask.setTo(0, region.seams);
   region.distance_px = distance_of(region.mask);
-  region.width_px = ridge_width(region.distance_px);
+  region.width_px = ridge_widths(region.distance_px).usual_px;
   return region;
 }
 

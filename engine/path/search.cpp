@@ -11,6 +11,7 @@ namespace flowdlo::path {
 namespace {
 
 constexpr float kEndAtCrossing = 1.5F;    // an end that lies on another strand
+constexpr float kEndAtCut = 1.0F;         // an end where an occluder begins
 constexpr float kUncoveredWidths = 1.5F;  // cost of a width of length left out
 constexpr float kLooseTip = 1.0F;         // a branch left out though it ends in a tip
 constexpr float kMinorWidths = 1.5F;      // strands below this do not make traversals distinct
@@ -74,7 +75,8 @@ class Searcher {
   }
 
   [[nodiscard]] float stop_cost(int end) const {
-    return strands_.end(end).tip() ? 0 : kEndAtCrossing;
+    if (!strands_.end(end).tip()) return kEndAtCrossing;
+    return strands_.end(end).cut ? kEndAtCut : 0;
   }
   [[nodiscard]] float goal_cost(const State& state) const {
     return state.paid + stop_cost(state.enter ^ 1) + state.left;

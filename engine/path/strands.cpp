@@ -1,12 +1,15 @@
 #include "path/strands.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <utility>
 
+#include "path/cover.hpp"
 #include "path/crossings.hpp"
 #include "path/midline.hpp"
+#include "path/rim.hpp"
 
 namespace flowdlo::path {
 namespace {
@@ -19,8 +22,10 @@ constexpr float kFullShare = 0.85F;   // of the usual half width: a tip begins b
 constexpr float kTipWidths = 5.0F;    // the stretch that tells what is usual
 constexpr float kDepthWidths = 3.0F;  // length over which a depth is fitted
 constexpr int kDepthSamples = 16;
-constexpr float kSlopeWidths = 2.0F;  // a slope over this length counts half
-constexpr float kMaxSlope = 1.5F;     // metres of depth a metre sideways
+constexpr float kSlopeWidths = 2.0F;     // a slope over this length counts half
+constexpr float kCutWidths = 3.0F;       // how far ahead an occluder is looked for
+constexpr float kHeadingWidths = 0.75F;  // from the middle of what tells the direction to the end
+constexpr float kMaxSlope = 1.5F;        // metres of depth a metre sideways
 
 float at(const cv::Mat& image, const Vector2f& p) {
   const int u = std::clamp(static_cast<int>(std::lround(p.x())), 0, image.cols - 1);
@@ -47,8 +52,10 @@ float median_of(std::vector<float>& values) {
 }
 
 // Cuts what thinning leaves skewed at a tip (half a width; all of the corner where an occluder cut
-// the rope aslant), then follows the direction to the mask's edge.
-void extend_tip(Points& points, const Region& region, float width_px, float scale_px) {
+// the rope aslant, but for points that follow its rim), then follows the direction to the mask's
+// edge.
+void extend_tip(Points& points, std::vector<std::uint8_t>& aside, const Region& region,
+                float width_px, float scale_px) {
   std::vector<float> distances;
   const auto near = std::min(points.size(), static_cast<std::size_t>(kTipWidths * scale_px));
   for (std::size_t i = 0; i < near; ++i) distances.push_back(at(region.distance_px, points[i]));
@@ -56,10 +63,11 @@ void extend_tip(Points& points, const Region& region, float width_px, float scal
   const auto most = std::min(points.size() / 3, static_cast<std::size_t>(2.5F * width_px));
   std::size_t cut = 0;
   while (cut < most && ((points[cut] - points[0]).norm() < 0.5F * width_px ||
-                        at(region.distance_px, points[cut]) < full)) {
+                        (aside[cut] == 0 && at(region.distance_px, points[cut]) < full))) {
     ++cut;
   }
   points.erase(points.begin(), points.begin() + static_cast<std::ptrdiff_t>(cut));
+  aside.erase(aside.begin(), aside.begin() + static_cast<std::ptrdiff_t>(cut));
   const Vector2f out = direction_at_front(points, scale_px);
   const Vector2f start = points.front();
   Points added;
@@ -70,6 +78,7 @@ void extend_tip(Points& points, const Region& region, float width_px, float scal
     added.push_back(p);
   }
   points.insert(points.begin(), added.rbegin(), added.rend());
+  aside.insert(aside.begin(), added.size(), std::uint8_t{0});
 }
 
 // Median of the valid depths of the mask in the five pixels around `p`; 0 without any.
@@ -89,6 +98,20 @@ float depth_at(const Vector2f& p, const Region& region, const Frame& frame) {
   return values.empty() ? 0 : median_of(values);
 }
 
+// Of a point that lies under an occluder: the depth of what shows beside it.
+float depth_beside(const Points& points, int i, const Region& region, const Frame& frame,
+                   float scale_px) {
+  const int last = static_cast<int>(points.size()) - 1;
+  const Vector2f along = points[std::min(i + 2, last)] - points[std::max(i - 2, 0)];
+  if (along.norm() <= 0) return 0;
+  const Vector2f normal = Vector2f(-along.y(), along.x()).normalized();
+  for (const float off : {0.2F, -0.2F, 0.35F, -0.35F}) {
+    const float z = depth_at(points[i] + off * scale_px * normal, region, frame);
+    if (z > 0) return z;
+  }
+  return 0;
+}
+
 // Depth at the front of `points` and its slope: the median of slopes between samples, and the
 // median of what they foretell (Theil and Sen). Next to a crossing the other strand bleeds into
 // the depth: nothing is taken there while enough is left.
@@ -102,7 +125,8 @@ void measure_depth(const Points& points, const Region& region, const Frame& fram
   const int step = std::max(1, (last - skipped) / kDepthSamples);
   std::vector<std::pair<float, float>> samples;  // how far from the front, depth
   for (int i = skipped; i < last; i += step) {
-    const float z = depth_at(points[i], region, frame);
+    float z = depth_at(points[i], region, frame);
+    if (z <= 0) z = depth_beside(points, i, region, frame, scale_px);
     if (z > 0) samples.emplace_back(static_cast<float>(i), z);
   }
   if (samples.size() < 3) return;
@@ -124,12 +148,14 @@ void measure_depth(const Points& points, const Region& region, const Frame& fram
 
 Strand make_strand(const Segment& segment, const Graph& graph, const Crossings& crossings,
                    const Region& region, const Frame& frame, const Strands& sizes) {
+  const Cover cover(region, frame, sizes.width_px);
   Strand strand;
   strand.ring = segment.ring();
   strand.covers_px = segment.length_px;
   const int half = std::clamp(static_cast<int>(std::lround(0.3F * sizes.width_px)), 1, 8);
   Points points = smoothed(segment.points_px, half);
   recentre(points, region.mask, sizes.width_px);
+  std::vector<std::uint8_t> aside = centre_on_rim(points, cover, sizes.width_px);
   for (int side = 0; side < 2; ++side) {
     StrandEnd& end = strand.ends[side];
     end.node = segment.node[side];
@@ -139,16 +165,22 @@ Strand make_strand(const Segment& segment, const Graph& graph, const Crossings& 
     if (!strand.ring && !tip) {
       const int cut = distorted(points, region.distance_px, sizes.scale_px, sizes.width_px);
       points.erase(points.begin(), points.begin() + cut);
+      aside.erase(aside.begin(), aside.begin() + cut);
       if (graph.nodes[segment.node[1 - side]].ends.size() == 1) {
         strand.covers_px -= graph.nodes[end.node].distance_px;
       }
     } else if (!strand.ring) {
-      extend_tip(points, region, sizes.width_px, sizes.scale_px);
+      extend_tip(points, aside, region, sizes.width_px, sizes.scale_px);
     }
     end.point_px = points.front();
     end.outward = direction_at_front(points, sizes.scale_px);
+    end.curvature = curvature_at_front(points, sizes.scale_px);
+    end.heading = Eigen::Rotation2Df(kHeadingWidths * sizes.scale_px * end.curvature) * end.outward;
     measure_depth(points, region, frame, sizes.scale_px, end);
+    end.cut = cover.beyond(end.point_px, end.outward, end.depth_m, kCutWidths * sizes.scale_px) ==
+              Sight::kHidden;
     std::reverse(points.begin(), points.end());
+    std::reverse(aside.begin(), aside.end());
   }
   strand.covers_px = std::max(0.0F, strand.covers_px);
   strand.points_px = std::move(points);

@@ -15,6 +15,9 @@ struct StrandEnd {
   Eigen::Vector2f outward{0, 0};  ///< unit tangent, away from the strand
   float depth_m = 0;              ///< of the visible surface at `point_px`; 0: unknown
   float slope_per_px = 0;         ///< change of depth along `outward`
+  Eigen::Vector2f heading{0, 0};  ///< `outward`, turned on by the curvature to the very end
+  float curvature = 0;            ///< 1 / px, along `outward`; positive from x to y
+  bool cut = false;               ///< right behind it something nearer hides the rope
   int crossing = -1;              ///< the crossing it runs into; -1: a tip
   int node = -1;                  ///< the graph's node there
   Eigen::Vector2f node_px{0, 0};  ///< and where it is

@@ -32,8 +32,15 @@ constexpr float kWidthFrom = 1.0F;         // widths from a tip between which th
 constexpr float kWidthTo = 3.0F;           // is measured
 constexpr float kTipPx = 1.0F;             // what lies nearer to the tip is uncertain
 constexpr float kTipShare = 0.6F;          // of half a width: so much of a cap tells its shape
-constexpr float kSquareFill = 0.94F;       // mean of both caps from which they count as square
-constexpr float kTellingPx = 10.0F;        // caps of thinner ropes tell nothing
+constexpr float kTellingPx = 5.5F;         // caps of thinner ropes tell nothing
+// Caps are taken for round below the first mean fill, for square above the second, and for
+// something between them in between; the finer the mask, the nearer to what geometry says.
+constexpr float kCoarseRound = 0.90F;
+constexpr float kCoarseSquare = 0.96F;
+constexpr float kFineRound = 0.84F;
+constexpr float kFineSquare = 0.92F;
+constexpr float kFinePx = 10.0F;
+constexpr float kUnknownCap = 0.5F;  // of half a width: off by a quarter at most, round or square
 
 std::size_t pixel(const Frame& frame, const Vector2f& p) {
   return static_cast<std::size_t>(std::floor(p.y() + 0.5F)) * frame.width +
@@ -212,6 +219,14 @@ class StripEnd {
   bool front_;
 };
 
+/// In [0, 1]: how much of half a width a cap of that mean fill reaches beyond the centerline.
+float roundness(float fill, float width_px) {
+  const bool fine = width_px >= kFinePx;
+  const float round = fine ? kFineRound : kCoarseRound;
+  const float square = fine ? kFineSquare : kCoarseSquare;
+  return std::clamp((square - fill) / (square - round), 0.0F, 1.0F);
+}
+
 }  // namespace
 
 std::vector<Vector2f> to_the_tips(std::span<const Vector2f> path_px, float width_px,
@@ -228,21 +243,28 @@ std::vector<Vector2f> to_the_tips(std::span<const Vector2f> path_px, float width
 
 Extent without_caps(const Strip& strip, const Frame& frame) {
   const float whole = static_cast<float>(strip.stations.size() - 1) * strip.step_px;
-  std::array<float, 2> cap_px{0, 0};
+  std::array<float, 2> half_px{0, 0};
   float fill = 0;
+  float width_px = 0;
   int told = 0;
   for (const std::size_t side : {0U, 1U}) {
     const StripEnd end(strip, side == 0);
     if (!end.free(frame)) continue;
-    const float half = end.half_px(strip.width_px);
-    cap_px[side] = std::clamp(half - 0.5F * kEdgePx, 0.0F, kMostShare * whole);
-    const float filled = end.fill(half);
-    if (filled < 0 || 2 * half < kTellingPx) continue;
+    half_px[side] = end.half_px(strip.width_px);
+    const float filled = end.fill(half_px[side]);
+    if (filled < 0 || 2 * half_px[side] < kTellingPx) continue;
     fill += filled;
+    width_px += 2 * half_px[side];
     ++told;
   }
-  const bool square = told == 2 && fill > 2 * kSquareFill;
-  if (square) cap_px = {0, 0};
+  // A rope's ends are alike: where one tells nothing, the other speaks for both.
+  const float count = static_cast<float>(told);
+  const float round = told > 0 ? roundness(fill / count, width_px / count) : kUnknownCap;
+  std::array<float, 2> cap_px{0, 0};
+  for (const std::size_t side : {0U, 1U}) {
+    if (half_px[side] <= 0) continue;
+    cap_px[side] = round * std::clamp(half_px[side] - 0.5F * kEdgePx, 0.0F, kMostShare * whole);
+  }
   return {cap_px[0], whole - cap_px[1]};
 }
 

@@ -27,7 +27,8 @@ struct Extent {
                                                        float width_px, const Frame& frame);
 
 /// The strip without the rope's caps: the mask of a rope with round ends reaches half a width
-/// beyond its centerline, that of a rope cut off square does not. Ends that are no tips (at the
+/// beyond its centerline, that of a rope cut off square does not; half of that where the mask does
+/// not tell. Ends that are no tips (at the
 /// image's border, on another strand, where the mask goes on) stay where they are.
 [[nodiscard]] Extent without_caps(const Strip& strip, const Frame& frame);
 

@@ -13,11 +13,13 @@ using Eigen::Vector2f;
 
 constexpr float kLeastMerged = 1.5F;  // widths that the mask of two strands measures
 constexpr float kMostMerged = 2.6F;
-constexpr float kParallel = 0.75F;     // cosine between the strands
-constexpr float kShortest = 2.5F;      // widths; a shorter stretch is a crossing
-constexpr float kJumpWidths = 0.5F;    // from one station's neighbour to the next one's
-constexpr float kApartWidths = 0.6F;   // strands this far apart show their sides
-constexpr float kOnTopWidths = 0.3F;   // strands this near cross, or the path errs
+constexpr float kParallel = 0.75F;    // cosine between the strands
+constexpr float kShortest = 2.5F;     // widths; a shorter stretch is a crossing
+constexpr float kJumpWidths = 0.5F;   // from one station's neighbour to the next one's
+constexpr float kApartWidths = 0.6F;  // strands this far apart show their sides
+constexpr float kOnTopWidths = 0.3F;  // strands this near cross, or the path errs
+constexpr float kClearWidths = 0.8F;  // strands this far apart are each on its own half
+constexpr float kTouchUpWidths = 0.2F;
 constexpr float kSmoothWidths = 0.5F;  // to both sides
 
 class Strands {
@@ -81,7 +83,10 @@ class Strands {
     }
     const float quarter = 0.25F * (at(i).left_px + at(i).right_px);
     const float half = std::clamp(quarter, 0.4F * strip_.width_px, 0.6F * strip_.width_px);
-    return side > 0 ? half - at(i).left_px : at(i).right_px - half;
+    const float move = side > 0 ? half - at(i).left_px : at(i).right_px - half;
+    // Strands already apart are at most moved a little: more, and a third one beside them is meant.
+    const bool clear = aside(i) * static_cast<float>(side) > kClearWidths;
+    return clear && std::abs(move) > kTouchUpWidths * strip_.width_px ? 0 : move;
   }
 
  private:

@@ -9,7 +9,10 @@ int main(int argc, char** argv) {
     std::fputs("usage: flowdlo_seed_weights OUT.fdw\n", stderr);
     return 2;
   }
-  const auto weights = flowdlo::weights::seeded(flowdlo::weights::Variant{}, kSeed);
+  // Noise has learned from no prior, so that the estimate rests on the better one.
+  flowdlo::weights::Variant variant;
+  variant.prior_kind = flowdlo::weights::PriorKind::kRefined;
+  const auto weights = flowdlo::weights::seeded(variant, kSeed);
   const auto saved = flowdlo::weights::save(weights, argv[1]);
   if (saved) return 0;
   std::fprintf(stderr, "%s\n", saved.error().message.c_str());

@@ -9,7 +9,7 @@ namespace flowdlo {
 
 /// How the path becomes 3D; each model is trained on one kind and its weights file says which.
 enum class PriorChoice {
-  kOfWeights,  ///< what the weights' metadata says
+  kOfWeights,  ///< what the weights' metadata says; of the weights that come with FlowDLO: refined
   kThesis,     ///< Eq. (3.1)-(3.7): on the visible surface
   kRefined,    ///< on the rope's centerline, uniform in arclength, from every measured pixel
 };
@@ -38,7 +38,7 @@ struct Config {
   /// A frame that takes longer on a Vulkan device is kDeviceLost. 0: 10 s for up to 40 draws x
   /// steps and in proportion beyond, six times that on a CPU driver.
   int device_timeout_ms = 0;
-  bool validation = false;        ///< Vulkan's validation layers, where installed; slow
+  bool validation = false;  ///< Vulkan's validation layers, where installed; slow
 };
 
 }  // namespace flowdlo

@@ -44,19 +44,19 @@ struct Timings {
 };
 
 struct Estimate {
-  Centerline nodes{};                        ///< [64, 3] end to end, camera frame, metres
+  Centerline nodes{};                          ///< [64, 3] end to end, camera frame, metres
   std::array<std::uint8_t, kNodes> support{};  ///< h_i, Eq. (3.6): 1 where a visible point backs it
-  std::array<float, kNodes> sigma_m{};       ///< standard deviation a node, metres; not calibrated
-  Source source = Source::kPrior;            ///< which branch of Eq. (3.33)
-  int draw = -1;                             ///< index of the returned draw; -1: the prior
+  std::array<float, kNodes> sigma_m{};  ///< standard deviation a node, metres; not calibrated
+  Source source = Source::kPrior;       ///< which branch of Eq. (3.33)
+  int draw = -1;                        ///< index of the returned draw; -1: the prior
   /// In [0, 1]: the probability that `nodes` visit the rope in order and leave no loop out,
   /// whichever end comes first. A logistic model fitted on synthetic scenes: below 0.5 means that
   /// another way through the mask, or a mask that hides the way, has to be reckoned with.
   float confidence = 0;
-  float mask_agreement = 0;                  ///< S_M of `nodes`, Eq. (3.32), in [0, 1]
-  float prior_mask_agreement = 0;            ///< S_M of the prior
-  std::vector<DrawReport> draws;             ///< one for each draw
-  std::vector<Alternative> alternatives;     ///< best first; may be empty
+  float mask_agreement = 0;               ///< S_M of `nodes`, Eq. (3.32), in [0, 1]
+  float prior_mask_agreement = 0;         ///< S_M of the prior
+  std::vector<DrawReport> draws;          ///< one for each draw
+  std::vector<Alternative> alternatives;  ///< best first; may be empty
   Timings timings;
 };
 
@@ -64,18 +64,18 @@ struct Estimate {
 /// D draws, camera frame, metres unless said otherwise.
 struct Tensors {
   int draws = 0;
-  int field_width = 0;                       ///< W / 2
-  int field_height = 0;                      ///< H / 2
-  std::vector<float> source;                 ///< [D, 64, 3] x_0, normalised space
-  std::vector<float> visible;                ///< [256, 3]
-  std::vector<std::uint8_t> visible_valid;   ///< [256]
-  std::vector<float> path;                   ///< [M, 2] pixels (u, v)
-  std::vector<float> prior;                  ///< [64, 3]
-  std::vector<std::uint8_t> support;         ///< [64]
-  std::vector<float> draw_prior;             ///< [D, 64, 3]
-  std::vector<std::uint8_t> draw_support;    ///< [D, 64]
-  std::vector<float> prediction;             ///< [D, 64, 3] before the gate
-  std::vector<float> mask_field;             ///< [4, H/2, W/2] mask, smoothed, u and v (half px)
+  int field_width = 0;                      ///< W / 2
+  int field_height = 0;                     ///< H / 2
+  std::vector<float> source;                ///< [D, 64, 3] x_0, normalised space
+  std::vector<float> visible;               ///< [256, 3]
+  std::vector<std::uint8_t> visible_valid;  ///< [256]
+  std::vector<float> path;                  ///< [M, 2] pixels (u, v)
+  std::vector<float> prior;                 ///< [64, 3]
+  std::vector<std::uint8_t> support;        ///< [64]
+  std::vector<float> draw_prior;            ///< [D, 64, 3]
+  std::vector<std::uint8_t> draw_support;   ///< [D, 64]
+  std::vector<float> prediction;            ///< [D, 64, 3] before the gate
+  std::vector<float> mask_field;            ///< [4, H/2, W/2] mask, smoothed, u and v (half px)
 };
 
 }  // namespace flowdlo

@@ -23,8 +23,8 @@ struct Frame {
   int width = 0;   ///< pixels, 1..4096
   int height = 0;  ///< pixels, 1..4096
   Intrinsics intrinsics;
-  std::span<const float> depth_m;           ///< [height, width] z-depth, metres; 0 or not finite: none
-  std::span<const std::uint8_t> mask;       ///< [height, width] the rope where > 127
+  std::span<const float> depth_m;      ///< [height, width] z-depth, metres; 0 or not finite: none
+  std::span<const std::uint8_t> mask;  ///< [height, width] the rope where > 127
   std::span<const std::uint8_t> color_bgr;  ///< [height, width, 3], or empty: not needed
 };
 

@@ -42,8 +42,7 @@ struct FrameFolder {
 /// first. Depth is rounded to the nearest step of `depth_scale` metres, and is 0 where there is
 /// none. Fails with kIo, or with kBadInput when the frame is not valid or lies beyond 65535 steps.
 [[nodiscard]] FLOWDLO_EXPORT Result<void> save_frame_folder(const std::filesystem::path& folder,
-                                                            const Frame& frame,
-                                                            double depth_scale,
+                                                            const Frame& frame, double depth_scale,
                                                             const Centerline* truth = nullptr);
 
 }  // namespace flowdlo

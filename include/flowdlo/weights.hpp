@@ -13,16 +13,16 @@
 namespace flowdlo {
 
 struct TensorInfo {
-  std::string name;         ///< PyTorch's, spec section 6: "encoder.0.qkv.weight"
-  std::vector<int> shape;   ///< outermost first
-  std::string dtype;        ///< "f32" or "f16"
+  std::string name;        ///< PyTorch's, spec section 6: "encoder.0.qkv.weight"
+  std::vector<int> shape;  ///< outermost first
+  std::string dtype;       ///< "f32" or "f16"
 };
 
 struct WeightsInfo {
   std::map<std::string, std::string> metadata;  ///< field name to value, as in the schema
   std::vector<TensorInfo> tensors;              ///< in the manifest's order
   std::int64_t parameters = 0;
-  std::string sha256;                           ///< of the tensors' bytes, hexadecimal, verified
+  std::string sha256;  ///< of the tensors' bytes, hexadecimal, verified
 };
 
 /// Reads and verifies `file`. Fails with kIo or kBadWeights, listing every mismatch.

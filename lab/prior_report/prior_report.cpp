@@ -1,7 +1,7 @@
 // flowdlo_prior_report [--scenes N] [--first SEED] [--kind K] [--overlays DIR] [--worst N]:
 // mean index error, Eq. (4.1), of the thesis' and of the refined prior against the truth in the
 // better of both directions, kind by kind; over all scenes, over those whose path is right, and on
-// the true path. --overlays draws the worst scenes whose path is right.
+// the true path. The worst scenes are listed (a wrong path is marked so), --overlays draws them.
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <chrono>
@@ -112,6 +112,7 @@ struct Case {
   std::uint64_t seed;
   double index_cm;
   Parts parts;
+  bool right;
 };
 
 struct Tally {
@@ -161,11 +162,13 @@ void measure(flowdlo::lab::Kind kind, std::uint64_t seed, Tally& tally) {
   tally.refined_all.add(refined_error.index_cm);
   tally.flips += refined_error.flipped ? 1 : 0;
   if (best) tally.refined_truth.add(error_of(best->nodes, scene.truth).index_cm);
-  if (!flowdlo::lab::follows_rope(path, scene)) return;
+  const bool right = flowdlo::lab::follows_rope(path, scene);
+  tally.cases.push_back(
+      {seed, refined_error.index_cm, parts_of(refined->nodes, scene.truth), right});
+  if (!right) return;
   ++tally.right;
   tally.thesis_right.add(thesis_error.index_cm);
   tally.refined_right.add(refined_error.index_cm);
-  tally.cases.push_back({seed, refined_error.index_cm, parts_of(refined->nodes, scene.truth)});
 }
 
 void draw(flowdlo::lab::Kind kind, const Case& bad, const std::string& folder) {
@@ -206,12 +209,12 @@ void report(flowdlo::lab::Kind kind, const Options& options) {
   for (int i = 0; i < std::min(options.worst, static_cast<int>(tally.cases.size())); ++i) {
     const Case& bad = tally.cases[static_cast<std::size_t>(i)];
     std::fprintf(stderr,
-                 "  %s seed %llu: %.3f cm; depth %.3f (bias %+.3f), aside %.3f, along %.3f, ends "
+                 "  %s seed %llu: %.3f cm%s; depth %.3f (bias %+.3f), aside %.3f, along %.3f, ends "
                  "%+.2f %+.2f\n",
                  std::string(flowdlo::lab::name_of(kind)).c_str(),
-                 static_cast<unsigned long long>(bad.seed), bad.index_cm, bad.parts.depth_cm,
-                 bad.parts.bias_cm, bad.parts.aside_cm, bad.parts.along_cm, bad.parts.end_cm[0],
-                 bad.parts.end_cm[1]);
+                 static_cast<unsigned long long>(bad.seed), bad.index_cm,
+                 bad.right ? "" : " (wrong)", bad.parts.depth_cm, bad.parts.bias_cm,
+                 bad.parts.aside_cm, bad.parts.along_cm, bad.parts.end_cm[0], bad.parts.end_cm[1]);
     if (!options.overlays.empty()) draw(kind, bad, options.overlays);
   }
   std::fflush(stdout);

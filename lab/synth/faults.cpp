@@ -71,8 +71,10 @@ DepthFaults draw_depth(const Rope& rope, const View& view, bool plain, bool dark
 MaskFaults draw_mask(const Rope& rope, const View& view, Dice& dice) {
   const double width_px = width_px_of(rope, view);
   MaskFaults faults;
-  faults.ragged_px = dice.chance(0.28) ? dice.integer(1, width_px < 8 ? 1 : 3) : 0;
-  faults.frayed_inwards = width_px > 6;
+  const double width_vga_px = width_px * 640 / view.sensor->width;
+  const int most = std::clamp(static_cast<int>(width_vga_px / 4), 1, 3);
+  faults.ragged_px = dice.chance(0.28) ? dice.integer(1, most) : 0;
+  faults.frayed_inwards = width_vga_px > 6;
   faults.shift_px = dice.chance(0.3) ? (width_px < 5 || dice.chance(0.6) ? 1 : -1) : 0;
   faults.specks = dice.chance(0.12) ? dice.integer(1, 10) : 0;
   if (dice.chance(0.12)) {

@@ -19,14 +19,14 @@ struct Stretch {
 
 struct DepthFaults {
   bool noise = false;
-  bool whole_mm = false;       ///< the sensor reports millimetres
-  double flying = 0;           ///< share of border pixels between rope and background
-  double dropout = 0;          ///< share of border pixels without depth
-  int holes = 0;               ///< round ones on the rope
-  std::vector<Stretch> lost;   ///< no depth at all
-  std::vector<Stretch> black;  ///< hardly any depth
-  std::vector<Stretch> shiny;  ///< no depth where the rope faces the camera
-  std::vector<Stretch> sunk;   ///< thin rope that takes on the background's depth
+  bool whole_mm = false;         ///< the sensor reports millimetres
+  double flying = 0;             ///< share of border pixels between rope and background
+  double dropout = 0;            ///< share of border pixels without depth
+  int holes = 0;                 ///< round ones on the rope
+  std::vector<Stretch> lost{};   ///< no depth at all
+  std::vector<Stretch> black{};  ///< hardly any depth
+  std::vector<Stretch> shiny{};  ///< no depth where the rope faces the camera
+  std::vector<Stretch> sunk{};   ///< thin rope that takes on the background's depth
 };
 
 struct MaskFaults {
@@ -34,7 +34,7 @@ struct MaskFaults {
   bool frayed_inwards = true;  ///< false for a thin rope, which would fall apart
   int shift_px = 0;            ///< dilated (1) or eroded (-1)
   int specks = 0;
-  std::vector<Stretch> gaps;
+  std::vector<Stretch> gaps{};
 };
 
 struct Faults {

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kTurn = 2 * std::numbers::pi;
 constexpr int kAttempts = 120;
-constexpr double kFlattest = 0.4;     // sine of the flattest crossing
+constexpr double kFlattest = 0.32;    // sine of the flattest crossing
 constexpr double kClear = 2.7;        // radii between strands that neither cross nor touch
 constexpr double kClearEnd = 4.0;     // radii of rope beyond its last crossing
 constexpr std::size_t kCoarse = 320;  // samples of an attempt

@@ -64,24 +64,26 @@ Curve hung(const Gauge& gauge, const Hanging& hanging, Dice& dice) {
   const double swing_phase = dice.uniform(0, kTurn);
   const double swing_frequency = dice.uniform(0.5, 1.6);
   const double slope = dice.uniform(-0.5, 0.5) * hanging.swing_m;
-  std::vector<Vector3d> points{Vector3d::Zero()};
+  const auto out_of_plane = [&](double t) {
+    double out =
+        slope * t + 0.5 * hanging.swing_m * std::sin(kTurn * swing_frequency * t + swing_phase);
+    for (const Loop& loop : loops) out += 1.4 * loop.offset * eased((t - loop.from) / loop.share);
+    return out;
+  };
+  std::vector<Vector3d> points{Vector3d(0, 0, out_of_plane(0))};
   points.reserve(count + 1);
   Vector2d at = Vector2d::Zero();
   for (std::size_t i = 0; i < count; ++i) {
     const double t = (static_cast<double>(i) + 0.5) / static_cast<double>(count);
     double angle = heading_of(t, hanging.two_grippers, bottom, flatness, curl);
     angle += waves * std::sin(kTurn * wave_frequency * t + wave_phase);
-    double out =
-        slope * t + 0.5 * hanging.swing_m * std::sin(kTurn * swing_frequency * t + swing_phase);
     for (const Loop& loop : loops) {
-      const double inside = (t - loop.from) / loop.share;
-      angle += loop.sign * kTurn * eased(inside);
-      out += 1.4 * loop.offset * eased(inside);
+      angle += loop.sign * kTurn * eased((t - loop.from) / loop.share);
     }
     at += step * Vector2d(mirror * std::cos(angle), -std::sin(angle));
-    points.emplace_back(at.x(), at.y(), out);
+    points.emplace_back(at.x(), at.y(),
+                        out_of_plane(static_cast<double>(i + 1) / static_cast<double>(count)));
   }
-  points.front().z() = points[1].z();
   return respaced(points, 0.5 * gauge.radius_m);
 }
 

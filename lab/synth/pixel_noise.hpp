@@ -19,13 +19,13 @@ class PixelNoise {
   }
   /// In [0, 1).
   [[nodiscard]] float uniform(std::uint32_t u, std::uint32_t v) const {
-    return static_cast<float>(word(u, v) >> 8U) * 0x1.0p-24F;
+    return static_cast<float>(static_cast<int>(word(u, v) >> 8U)) * 0x1.0p-24F;
   }
   /// Mean 0, deviation 1, never beyond 3.5: the sum of four bytes.
   [[nodiscard]] float bell(std::uint32_t u, std::uint32_t v) const {
     const std::uint32_t h = word(u, v);
     const std::uint32_t sum = (h & 255U) + ((h >> 8U) & 255U) + ((h >> 16U) & 255U) + (h >> 24U);
-    return (static_cast<float>(sum) - 510.0F) * (1.0F / 147.8F);
+    return (static_cast<float>(static_cast<int>(sum)) - 510.0F) * (1.0F / 147.8F);
   }
   /// In [0, 1), smooth over `cell` pixels.
   [[nodiscard]] float smooth(float u, float v, float cell) const {

@@ -19,8 +19,8 @@ struct Recipe {
 Recipe recipe_of(std::string_view scenario, Dice& dice) {
   const double turn_c = dice.uniform(1.8, 4.2);
   const double swing_s = dice.uniform(0.9, 1.7);
-  if (scenario == "C") return {0.3, 0.6, {.turn = turn_c}, false};
-  if (scenario == "S") return {0.3, 0.6, {.swing = swing_s}, false};
+  if (scenario == "C") return {0.3, 0.6, {.turn = turn_c, .wander = 0.4}, false};
+  if (scenario == "S") return {0.3, 0.6, {.swing = swing_s, .wander = 0.2}, false};
   if (scenario == "straight") return {0.2, 0.4, {.wander = 0.12}, false};
   if (scenario == "C-complicated") {
     return {0.35, 0.7, {.turn = turn_c, .wander = 0.4, .wiggle = 0.6}, true};

@@ -178,7 +178,7 @@ void add_hand(const View& view, double radius_m, Dice& dice, std::vector<Thing>&
   hand.capsules.push_back(
       {palm + 0.022 * size * across, palm + 0.045 * size * reach, 0.021 * size});
   const Vector3d wrist = palm + 0.07 * size * reach;
-  const Vector3d elbow = wrist + 0.6 * (reach + 0.25 * toward);
+  const Vector3d elbow = wrist + std::max(0.5, 0.9 * p.z()) * (reach + 0.25 * toward);
   hand.capsules.push_back({wrist, elbow, 0.028 * size});
   if (elbow.z() < 0.05) return;  // the arm would run into the camera
   things.push_back(std::move(hand));

@@ -13,6 +13,7 @@ using Eigen::Matrix3d;
 constexpr double kPi = std::numbers::pi;
 constexpr double kMargin = 0.95;  // of half the image that the rope may fill
 constexpr double kThinnest_px = 2.0;
+constexpr double kSmallest = 0.15;  // extent of the rope, in widths of the image
 
 struct Range {
   double low;
@@ -85,6 +86,18 @@ void move(View& view, const Vector3d& by) {
   for (Vector3d& p : view.curve.points) p += by;
 }
 
+// The diagonal of the rope's picture, in widths of the image.
+double extent(const View& view) {
+  Vector2d low(1e9, 1e9);
+  Vector2d high(-1e9, -1e9);
+  for (const Vector3d& p : view.curve.points) {
+    const Vector2d at = view.project(p);
+    low = low.cwiseMin(at);
+    high = high.cwiseMax(at);
+  }
+  return (high - low).norm() / view.sensor->width;
+}
+
 bool stand_back(const Rope& rope, const Wish& wish, Dice& dice, View& view) {
   const double need = wish.overflow * least_distance(view, rope.radius_m);
   const double low = std::max(need, wish.distance_m.low);
@@ -102,7 +115,8 @@ bool stand_back(const Rope& rope, const Wish& wish, Dice& dice, View& view) {
     by[axis] = dice.uniform(0.85 * range.low, 0.85 * range.high);
     move(view, by);
   }
-  return 2 * rope.radius_m * view.camera.fx / view.distance_m >= kThinnest_px;
+  return 2 * rope.radius_m * view.camera.fx / view.distance_m >= kThinnest_px &&
+         extent(view) >= kSmallest;
 }
 
 void add_table(const Rope& rope, View& view) {
@@ -159,7 +173,7 @@ std::optional<View> try_wide_view(const Rope& rope, Dice& dice) {
   orient(rope, turn, view);
   Wish wish{.distance_m = {std::max(0.25, view.sensor->nearest_m), 1.5},
             .looseness = dice.uniform(1.1, 2.0)};
-  if (dice.chance(0.06)) wish = {wish.distance_m, 1.02, dice.uniform(0.8, 0.95)};
+  if (dice.chance(0.08)) wish = {wish.distance_m, 1.02, dice.uniform(0.8, 0.95)};
   if (!stand_back(rope, wish, dice, view)) return std::nullopt;
   if (rope.hanging) {
     add_wall(dice, view);

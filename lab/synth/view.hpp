@@ -37,7 +37,7 @@ struct View {
 [[nodiscard]] std::optional<View> try_thesis_view(const Rope& rope, Dice& dice);
 
 /// 0.25 to 1.5 m away, tilted by up to 70 degrees. Of some ropes a small part leaves the image.
-/// Empty when the rope does not fit, or would be thinner than two pixels.
+/// Empty when the rope does not fit, or would be thinner than two pixels or tiny.
 [[nodiscard]] std::optional<View> try_wide_view(const Rope& rope, Dice& dice);
 
 }  // namespace flowdlo::synth

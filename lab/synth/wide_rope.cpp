@@ -9,12 +9,17 @@
 namespace flowdlo::synth {
 namespace {
 
+constexpr double kLeastLength_m = 0.2;
+constexpr double kMostLength_m = 2.0;
+constexpr double kLeastRadius_m = 0.0008;
+constexpr double kMostRadius_m = 0.012;
+
 // Length and radius are drawn apart, within what makes a rope: 25 to 1500 radii, more for loops.
 Gauge gauge_of(double least_slenderness, double most_slenderness, Dice& dice) {
   Gauge gauge;
   do {
-    gauge.length_m = dice.log_uniform(0.2, 2.0);
-    gauge.radius_m = dice.log_uniform(0.0008, 0.012);
+    gauge.length_m = dice.log_uniform(kLeastLength_m, kMostLength_m);
+    gauge.radius_m = dice.log_uniform(kLeastRadius_m, kMostRadius_m);
   } while (gauge.length_m < least_slenderness * gauge.radius_m ||
            gauge.length_m > most_slenderness * gauge.radius_m);
   gauge.least_bend_m = gauge.radius_m * dice.log_uniform(4.0, 12.0);
@@ -85,7 +90,8 @@ std::optional<Rope> try_wide_rope(std::string_view scenario, Dice& dice) {
     if (!curve) return std::nullopt;
     rope.curve = std::move(*curve);
   }
-  if (!sound(rope)) return std::nullopt;
+  const double length = rope.curve.length_m();  // lifts, swings and overlaps have added to it
+  if (length < kLeastLength_m || length > kMostLength_m || !sound(rope)) return std::nullopt;
   return rope;
 }
 

@@ -85,6 +85,7 @@ void visit(Visitor& visitor, Recipe& recipe) {
     v.real("alternative_share", sampling.alternative_share, 0, 1);
     v.real("rotation_share", sampling.rotation_share, 0, 1);
     v.real("mirror_share", sampling.mirror_share, 0, 1);
+    v.real("time_power", sampling.time_power, 0.1, 10);
     v.choice("truth_direction", sampling.truth_direction, truth_directions());
   });
   visitor.group("objective", [&](Visitor& v) {

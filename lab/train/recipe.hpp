@@ -21,6 +21,7 @@ struct SamplingConfig {
   double alternative_share = 0;    ///< samples conditioned on a runner-up's prior
   double rotation_share = 0.75;    ///< Sec. 4.1.3
   double mirror_share = 0;
+  double time_power = 1;  ///< t = u^time_power, u uniform: above 1, more of the early flow
   TruthDirection truth_direction = TruthDirection::kCanonical;
 };
 

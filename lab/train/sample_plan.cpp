@@ -1,6 +1,7 @@
 #include "train/sample_plan.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 
 #include "random/philox.hpp"
@@ -46,7 +47,8 @@ Choice SamplePlan::choose(std::uint64_t step, int slot, int batch) const {
   if (runners_up > 0 && random::uniform(first[1]) < config_.alternative_share) {
     choice.prior = 1 + first[2] % runners_up;
   }
-  choice.t = std::min(static_cast<float>(random::uniform(first[3])), 0.9999999F);
+  choice.t = std::min(static_cast<float>(std::pow(random::uniform(first[3]), config_.time_power)),
+                      0.9999999F);
   if (random::uniform(second[0]) < config_.rotation_share) {
     choice.turn.angle_rad = 2 * std::numbers::pi * random::uniform(second[1]);
   }

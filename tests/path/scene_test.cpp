@@ -41,7 +41,8 @@ TEST_P(SceneOf, IsFollowedFromEndToEnd) {
 INSTANTIATE_TEST_SUITE_P(Kinds, SceneOf,
                          testing::Values(lab::Kind::kSimple, lab::Kind::kHanging,
                                          lab::Kind::kOneCrossing, lab::Kind::kThin,
-                                         lab::Kind::kRagged, lab::Kind::kBadDepth),
+                                         lab::Kind::kRagged, lab::Kind::kBadDepth,
+                                         lab::Kind::kTouching, lab::Kind::kCoil),
                          [](const auto& which) {
                            std::string name(lab::name_of(which.param));
                            std::replace(name.begin(), name.end(), '-', '_');

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstddef>
 
 #include "prior/sheet.hpp"
 
@@ -61,6 +62,25 @@ TEST(SideBySide, PutsTouchingStrandsOnTheirOwnHalvesOfTheMask) {
 TEST(SideBySide, LeavesARealCrossingAlone) {
   const Sheet sheet = Sheet().box(40, 115, 285, 125).box(155, 25, 165, 220);
   EXPECT_FALSE(side_by_side(strip_of(kCross, 11, sheet)).has_value());
+}
+
+TEST(SideBySide, LeavesTheMiddleOfThreeStrandsBesideTheOneItMergesWith) {
+  Sheet sheet;  // strands 11 px wide; a slit above the middle one, none below it
+  sheet.box(40, 99, 240, 109).box(40, 111, 240, 132);
+  Points path;
+  for (int u = 40; u <= 240; ++u) path.emplace_back(u, 104);
+  for (int v = 105; v < 115; ++v) path.emplace_back(250, v);
+  for (int u = 240; u >= 40; --u) path.emplace_back(u, 115);
+  for (int v = 116; v < 127; ++v) path.emplace_back(30, v);
+  for (int u = 40; u <= 240; ++u) path.emplace_back(u, 127);
+  const Strip strip = strip_of(path, 11, sheet);
+  const auto moved = side_by_side(strip);
+  if (!moved) return;  // nothing to move is as good
+  for (std::size_t i = 0; i < strip.stations.size(); ++i) {
+    const auto& before = strip.stations[i].point_px;
+    if (before.x() < 80 || before.x() > 200) continue;
+    EXPECT_NEAR((*moved)[i].y(), before.y(), 2) << "u = " << before.x();
+  }
 }
 
 }  // namespace

@@ -1,0 +1,81 @@
+#include "path/cover.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+namespace flowdlo::path {
+namespace {
+
+using Eigen::Vector2f;
+
+constexpr float kMarginNoise_m = 0.003F;  // nearer or farther than the rope by this
+constexpr float kMarginRadii = 0.5F;      // and this many radii of it
+constexpr int kProbes = 4;                // behind the mask's edge, a pixel and a half apart
+constexpr float kProbeStepPx = 1.5F;
+
+}  // namespace
+
+Cover::Cover(const Region& region, const Frame& frame, float width_px)
+    : region_(region), frame_(frame), width_px_(width_px) {}
+
+bool Cover::masked(const Vector2f& p) const {
+  const auto u = static_cast<int>(std::lround(p.x()));
+  const auto v = static_cast<int>(std::lround(p.y()));
+  const cv::Mat& mask = region_.mask;
+  return u >= 0 && v >= 0 && u < mask.cols && v < mask.rows && mask.at<std::uint8_t>(v, u) != 0;
+}
+
+float Cover::depth_around(const Vector2f& p, bool on_mask) const {
+  std::array<float, 5> values{};
+  std::size_t count = 0;
+  const auto u = static_cast<int>(std::lround(p.x()));
+  const auto v = static_cast<int>(std::lround(p.y()));
+  for (const auto& [du, dv] : {std::pair{0, 0}, {1, 0}, {-1, 0}, {0, 1}, {0, -1}}) {
+    const Vector2f q{static_cast<float>(u + du), static_cast<float>(v + dv)};
+    const int image_u = u + du + region_.offset_px.x;
+    const int image_v = v + dv + region_.offset_px.y;
+    if (image_u < 0 || image_v < 0 || image_u >= frame_.width || image_v >= frame_.height) continue;
+    const float z = frame_.depth_m[static_cast<std::size_t>(image_v) * frame_.width + image_u];
+    if (!std::isfinite(z) || z <= 1e-6F || masked(q) != on_mask) continue;
+    values[count++] = z;
+  }
+  if (count == 0) return 0;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(count / 2);
+  std::nth_element(values.begin(), middle, values.begin() + static_cast<std::ptrdiff_t>(count));
+  return *middle;
+}
+
+float Cover::rope_depth(const Vector2f& p) const { return depth_around(p, true); }
+
+Sight Cover::at(const Vector2f& p, float rope_m) const {
+  if (rope_m <= 0) return Sight::kUnknown;
+  const float z = depth_around(p, false);
+  if (z <= 0) return Sight::kUnknown;
+  const float radius_m = 0.5F * width_px_ * rope_m / std::max(1.0F, frame_.intrinsics.fx);
+  const float margin = kMarginNoise_m + kMarginRadii * radius_m;
+  if (z < rope_m - margin) return Sight::kHidden;
+  return z > rope_m + margin ? Sight::kOpen : Sight::kUnknown;
+}
+
+Sight Cover::beyond(Vector2f p, const Vector2f& direction, float rope_m, float reach_px) const {
+  float walked = 0;
+  for (; masked(p); ++walked) {
+    if (walked > reach_px) return Sight::kUnknown;
+    p += direction;
+  }
+  int hidden = 0;
+  int open = 0;
+  for (int i = 0; i < kProbes; ++i) {
+    p += kProbeStepPx * direction;
+    if (masked(p)) break;
+    const Sight sight = at(p, rope_m);
+    hidden += sight == Sight::kHidden ? 1 : 0;
+    open += sight == Sight::kOpen ? 1 : 0;
+  }
+  if (2 * hidden > kProbes) return Sight::kHidden;
+  return 2 * open > kProbes ? Sight::kOpen : Sight::kUnknown;
+}
+
+}  // namespace flowdlo::path

@@ -1,0 +1,46 @@
+// Cover: what the depths beside the mask say of a place where no rope shows: is it hidden by
+// something nearer, or would the rope be seen there?
+#pragma once
+
+#include <Eigen/Core>
+
+#include "flowdlo/frame.hpp"
+#include "path/region.hpp"
+
+namespace flowdlo::path {
+
+enum class Sight : std::uint8_t {
+  kUnknown,  ///< no depth, or one that tells nothing
+  kOpen,     ///< something well behind the rope shows: it is not there
+  kHidden,   ///< something well before the rope: it may run behind
+};
+
+/// Borrows both arguments. Places are in crop coordinates.
+class Cover {
+ public:
+  Cover(const Region& region, const Frame& frame, float width_px);
+
+  /// What shows at `p`, where the rope's surface would be `rope_m` deep; 0: depth unknown.
+  [[nodiscard]] Sight at(const Eigen::Vector2f& p, float rope_m) const;
+
+  /// What shows behind the mask's edge, walking from `p` along the unit vector `direction` over at
+  /// most `reach_px` of mask.
+  [[nodiscard]] Sight beyond(Eigen::Vector2f p, const Eigen::Vector2f& direction, float rope_m,
+                             float reach_px) const;
+
+  /// Depth of the mask around `p`, 0 without any.
+  [[nodiscard]] float rope_depth(const Eigen::Vector2f& p) const;
+
+  /// Whether `p` lies on the mask.
+  [[nodiscard]] bool masked(const Eigen::Vector2f& p) const;
+
+ private:
+  // Median depth of the pixels around `p` that are on the mask, or that are not.
+  [[nodiscard]] float depth_around(const Eigen::Vector2f& p, bool on_mask) const;
+
+  const Region& region_;
+  const Frame& frame_;
+  float width_px_;
+};
+
+}  // namespace flowdlo::path

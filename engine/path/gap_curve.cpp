@@ -1,0 +1,155 @@
+#include "path/gap_curve.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+namespace flowdlo::path {
+namespace {
+
+using Eigen::Vector2f;
+
+constexpr std::array kTangents{0.5F, 1.0F, 1.6F, 2.6F};  // over the chord
+constexpr int kSamples = 12;
+constexpr int kFineRounds = 10;
+constexpr float kFineFactor = 1.15F;
+constexpr float kMostBending = 20.0F;
+constexpr float kWidths = 6.0F;         // a unit for each six widths of length
+constexpr float kShapeBending = 1.0F;   // the curve drawn bends as little as it can;
+constexpr float kLinkBending = 0.2F;    // as a link it had better bend on as the ends do
+constexpr float kNearestWidths = 0.5F;  // ends nearer than this have no curve between them
+constexpr float kOpenCost = 8.0F;       // where the background shows, at most;
+constexpr float kOpenWidths = 4.0F;     // most of it for this many widths
+
+struct Cubic {
+  Vector2f a, b;    // points
+  Vector2f da, db;  // derivatives there, along the way
+
+  [[nodiscard]] Vector2f at(float t) const {
+    const float t2 = t * t;
+    const float t3 = t2 * t;
+    return (2 * t3 - 3 * t2 + 1) * a + (t3 - 2 * t2 + t) * da + (3 * t2 - 2 * t3) * b +
+           (t3 - t2) * db;
+  }
+};
+
+enum class Purpose : std::uint8_t { kLink, kShape };
+
+class Gap {
+ public:
+  Gap(const StrandEnd& from, const StrandEnd& to, const Cover& cover, float scale_px)
+      : from_(from), to_(to), cover_(cover), scale_px_(scale_px) {}
+
+  // The cheapest cubic over a grid of both tangents' lengths.
+  float search(Purpose purpose) {
+    purpose_ = purpose;
+    for (const float out : kTangents) {
+      for (const float in : kTangents) attempt(out, in);
+    }
+    return least_;
+  }
+
+  void refine() {
+    for (int round = 0; round < kFineRounds; ++round) {
+      bool better = attempt(leaves_ * kFineFactor, enters_);
+      better = attempt(leaves_ / kFineFactor, enters_) || better;
+      better = attempt(leaves_, enters_ * kFineFactor) || better;
+      better = attempt(leaves_, enters_ / kFineFactor) || better;
+      if (!better) return;
+    }
+  }
+
+  [[nodiscard]] Cubic cubic() const { return cubic_of(leaves_, enters_); }
+  [[nodiscard]] float length_px() const { return length_px_; }
+
+ private:
+  [[nodiscard]] Cubic cubic_of(float leaves, float enters) const {
+    const Vector2f chord = to_.point_px - from_.point_px;
+    return {from_.point_px, to_.point_px, leaves * chord.norm() * from_.heading,
+            -enters * chord.norm() * to_.heading};
+  }
+
+  bool attempt(float leaves, float enters) {
+    const Cubic cubic = cubic_of(leaves, enters);
+    const Vector2f chord = cubic.b - cubic.a;
+    float length = 0;
+    float energy = 0;
+    std::array<float, kSamples> steps{};
+    for (int i = 0; i < kSamples; ++i) {
+      const float t = (static_cast<float>(i) + 0.5F) / kSamples;
+      const Vector2f d1 = (6 * t - 6 * t * t) * chord + (1 - 4 * t + 3 * t * t) * cubic.da +
+                          (3 * t * t - 2 * t) * cubic.db;
+      const Vector2f d2 = (6 - 12 * t) * chord + (6 * t - 4) * cubic.da + (6 * t - 2) * cubic.db;
+      const float speed = std::max(d1.norm(), 1e-3F);
+      float bend = (d1.x() * d2.y() - d1.y() * d2.x()) / (speed * speed * speed);
+      if (purpose_ == Purpose::kLink) bend -= (1 - t) * from_.curvature - t * to_.curvature;
+      steps[i] = speed / kSamples;
+      length += steps[i];
+      energy += bend * bend * steps[i];
+    }
+    const float weight = purpose_ == Purpose::kLink ? kLinkBending : kShapeBending;
+    float cost = length / (kWidths * scale_px_) + weight * bending(energy * length, chord.norm());
+    if (cost >= least_) return false;
+    cost += open_cost(cubic, steps);
+    if (cost >= least_) return false;
+    least_ = cost;
+    leaves_ = leaves;
+    enters_ = enters;
+    length_px_ = length;
+    return true;
+  }
+
+  // Energy times length is free of units: for an arc, its turn squared.
+  [[nodiscard]] float bending(float energy, float chord_px) const {
+    if (chord_px >= kNearestWidths * scale_px_) return std::min(kMostBending, energy);
+    const float turn = std::acos(std::clamp(-from_.heading.dot(to_.heading), -1.0F, 1.0F));
+    return turn * turn;
+  }
+
+  [[nodiscard]] float open_cost(const Cubic& cubic,
+                                const std::array<float, kSamples>& steps) const {
+    if (from_.depth_m <= 0 || to_.depth_m <= 0) return 0;
+    float open_px = 0;
+    for (int i = 0; i < kSamples; ++i) {
+      const float t = (static_cast<float>(i) + 0.5F) / kSamples;
+      const Vector2f p = cubic.at(t);
+      const float rope_m = (1 - t) * from_.depth_m + t * to_.depth_m;
+      if (!cover_.masked(p) && cover_.at(p, rope_m) == Sight::kOpen) open_px += steps[i];
+    }
+    return kOpenCost * (1 - std::exp(-open_px / (kOpenWidths * scale_px_)));
+  }
+
+  const StrandEnd& from_;
+  const StrandEnd& to_;
+  const Cover& cover_;
+  float scale_px_;
+  Purpose purpose_ = Purpose::kLink;
+  float least_ = std::numeric_limits<float>::max();
+  float leaves_ = 1;
+  float enters_ = 1;
+  float length_px_ = 0;
+};
+
+}  // namespace
+
+float gap_cost(const StrandEnd& from, const StrandEnd& to, const Cover& cover, float scale_px) {
+  return Gap(from, to, cover, scale_px).search(Purpose::kLink);
+}
+
+std::vector<Vector2f> gap_points(const StrandEnd& from, const StrandEnd& to, const Cover& cover,
+                                 float scale_px) {
+  Gap gap(from, to, cover, scale_px);
+  gap.search(Purpose::kShape);
+  gap.refine();
+  const Cubic cubic = gap.cubic();
+  const int steps = static_cast<int>(std::ceil(gap.length_px()));
+  std::vector<Vector2f> points;
+  for (int i = 1; i < steps; ++i) {
+    points.push_back(cubic.at(static_cast<float>(i) / static_cast<float>(steps)));
+  }
+  return points;
+}
+
+}  // namespace flowdlo::path

@@ -1,0 +1,18 @@
+// Tables: trials as Markdown and CSV.
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "eval/trial.hpp"
+
+namespace flowdlo::eval {
+
+/// A row a frame; errors in cm, empty where a method gave nothing.
+[[nodiscard]] std::string rows_csv(std::span<const Trial> trials);
+
+/// Errors by scenario and by difficulty, each method against the refined prior with bootstrap
+/// intervals, coverage, calibration. Ends with the note that the scenes are not the thesis'.
+[[nodiscard]] std::string tables_markdown(std::span<const Trial> trials);
+
+}  // namespace flowdlo::eval

@@ -1,0 +1,74 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+
+#include "flowdlo/frame_folder.hpp"
+#include "frame/temporary_folder.hpp"
+#include "scene/scene.hpp"
+#include "tools/program.hpp"
+
+namespace flowdlo {
+namespace {
+
+namespace fs = std::filesystem;
+using test::run_flowdlo;
+using test::TemporaryFolder;
+using testing::HasSubstr;
+
+fs::path save_scene(const fs::path& data_set, const std::string& name, std::uint64_t seed) {
+  const auto scene = lab::make_scene(lab::Kind::kSimple, seed);
+  const auto saved = save_frame_folder(data_set / name, scene.frame(), 0.0001, &scene.truth);
+  EXPECT_TRUE(saved) << saved.error().message;
+  return data_set / name;
+}
+
+test::Outcome run_eval(const fs::path& scratch, const fs::path& data_set) {
+  return run_flowdlo(scratch, {"eval", data_set.string(), "--out", (scratch / "out").string(),
+                               "--device", "cpu", "--draws", "1", "--steps", "1"});
+}
+
+TEST(EvalCommand, WritesTablesRowsAndPlots) {
+  const TemporaryFolder scratch;
+  const fs::path data_set = scratch.path() / "scenes";
+  fs::create_directory(data_set);
+  save_scene(data_set, "one", 1);
+  save_scene(data_set, "two", 2);
+  const auto outcome = run_eval(scratch.path(), data_set);
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const fs::path out = scratch.path() / "out";
+  for (const char* file : {"tables.md", "rows.csv", "error_bars.png", "error_curve.png"}) {
+    EXPECT_TRUE(fs::exists(out / file)) << file;
+  }
+  EXPECT_EQ(outcome.out, test::read_text(out / "tables.md"));
+  EXPECT_THAT(outcome.out, HasSubstr("| all | 2 |"));
+  EXPECT_THAT(test::read_text(out / "rows.csv"), HasSubstr("\ntwo,"));
+}
+
+TEST(EvalCommand, BadFrameCostsOneRow) {
+  const TemporaryFolder scratch;
+  const fs::path data_set = scratch.path() / "scenes";
+  fs::create_directory(data_set);
+  save_scene(data_set, "good", 1);
+  const fs::path bad = save_scene(data_set, "bad", 2);
+  fs::remove(bad / "mask.png");
+  const auto outcome = run_eval(scratch.path(), data_set);
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("1 of 2 frames have an estimate"));
+  EXPECT_THAT(outcome.out, HasSubstr("mask.png"));
+}
+
+TEST(EvalCommand, WeightsThatAreNoneAreWrongUsage) {
+  const TemporaryFolder scratch;
+  const auto outcome = run_flowdlo(
+      scratch.path(), {"eval", scratch.path().string(), "--out", (scratch.path() / "o").string(),
+                       "--weights", (scratch.path() / "none.fdw").string()});
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_THAT(outcome.err, HasSubstr("none.fdw"));
+  EXPECT_FALSE(fs::exists(scratch.path() / "o"));
+}
+
+}  // namespace
+}  // namespace flowdlo

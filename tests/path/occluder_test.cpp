@@ -1,0 +1,142 @@
+// Occluders: bars before the rope, with depths that show them.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <opencv2/imgproc.hpp>
+
+#include "canvas.hpp"
+#include "path/cover.hpp"
+#include "path/path.hpp"
+#include "path/region.hpp"
+
+namespace flowdlo::test {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+constexpr float kRope_m = 0.60F;
+constexpr float kTable_m = 0.65F;
+constexpr float kBar_m = 0.50F;
+
+// A rope before a table, all of it with depths.
+Canvas rope(const std::vector<Curve>& curves, int width_px) {
+  Canvas canvas;
+  std::fill(canvas.depth_m.begin(), canvas.depth_m.end(), kTable_m);
+  for (const Curve& curve : curves) {
+    canvas.stroke(curve, width_px).depth(curve, width_px, kRope_m);
+  }
+  return canvas;
+}
+
+Canvas& hide(Canvas& canvas, const cv::Rect& box) {
+  canvas.erase(box);
+  cv::Mat(canvas.mask.size(), CV_32F, canvas.depth_m.data())(box) = kBar_m;
+  return canvas;
+}
+
+// A circle of radius 80 around (320, 240), from one angle to another, in turns.
+Curve arc(double from, double to) {
+  return curve_of([&](double t) {
+    const double angle = 2 * kPi * (from + (to - from) * t);
+    return std::pair{320 + 80 * std::cos(angle), 240 + 80 * std::sin(angle)};
+  });
+}
+
+// With points all along, not only at corners.
+Curve dense(const Curve& corners) {
+  Curve curve;
+  for (std::size_t i = 1; i < corners.size(); ++i) {
+    const cv::Point d = corners[i] - corners[i - 1];
+    const int count = std::max({1, std::abs(d.x), std::abs(d.y)});
+    for (int k = 0; k < count; ++k) curve.push_back(corners[i - 1] + d * k / count);
+  }
+  curve.push_back(corners.back());
+  return curve;
+}
+
+// Of the curve's points from the path; how far the rope's round tips reach beyond does not count.
+float farthest_off(const path::Path& path, const Curve& curve) {
+  float most = 0;
+  for (const cv::Point& p : curve) most = std::max(most, distance_to(path.points_px, p));
+  return most;
+}
+
+TEST(Occluder, LinksRunUnderTheBarAndNotBeforeTheTable) {
+  // An S whose lower end lies near the gap: straight over the table would be shorter.
+  Curve curve{{60, 120}, {420, 120}};
+  const Curve turn = curve_of([](double t) {
+    const double angle = kPi * (t - 0.5);
+    return std::pair{420 + 90 * std::cos(angle), 210 + 90 * std::sin(angle)};
+  });
+  curve.insert(curve.end(), turn.begin(), turn.end());
+  curve.insert(curve.end(), {{420, 300}, {200, 300}, {200, 180}});
+  Canvas canvas = rope({curve}, 14);
+  hide(canvas, {455, 90, 80, 240});
+
+  const auto traced = path::trace(canvas.frame());
+
+  ASSERT_TRUE(traced);
+  EXPECT_LT(frechet(traced->ranked.front(), dense(curve)), 14.0F);
+}
+
+TEST(Occluder, AnArcGoesOnAsAnArcUnderIt) {
+  const Curve curve = arc(0.05, 0.95);
+  Canvas canvas = rope({curve}, 14);
+  hide(canvas, {200, 200, 90, 80});  // a quarter of the circle's left side
+
+  const auto traced = path::trace(canvas.frame());
+
+  ASSERT_TRUE(traced);
+  EXPECT_LT(farthest_off(traced->ranked.front(), curve), 7.0F) << "a chord would be off by 10";
+}
+
+TEST(Occluder, StrandsThatMeetAtItsEdgeArePairedBehindIt) {
+  // Two diagonals cross under the lower half of a bar; what is left above it looks like a V.
+  Curve curve{{120, 60}, {500, 440}};
+  const Curve turn{{500, 440}, {540, 440}, {560, 420}, {560, 60}, {540, 40}, {500, 60}};
+  curve.insert(curve.end(), turn.begin(), turn.end());
+  curve.push_back({120, 440});
+  Canvas canvas = rope({curve}, 16);
+  hide(canvas, {200, 246, 230, 44});
+
+  const auto traced = path::trace(canvas.frame());
+
+  ASSERT_TRUE(traced);
+  EXPECT_LT(frechet(traced->ranked.front(), dense(curve)), 20.0F);
+}
+
+TEST(Occluder, CutLengthwiseTheRopeKeepsItsMiddle) {
+  const Curve curve{{60, 240}, {580, 240}};
+  Canvas canvas = rope({curve}, 20);
+  hide(canvas, {270, 244, 90, 60});  // leaves 14 of 21 px, whose middle is 3.5 px higher
+
+  const auto traced = path::trace(canvas.frame());
+
+  ASSERT_TRUE(traced);
+  EXPECT_LT(farthest_off(traced->ranked.front(), dense(curve)), 1.6F);
+}
+
+TEST(Cover, TellsWhatIsNearerFromWhatIsFartherThanTheRope) {
+  const Curve curve{{60, 240}, {580, 240}};
+  Canvas canvas = rope({curve}, 20);
+  hide(canvas, {300, 200, 40, 80});
+  canvas.depth({{100, 100}, {200, 100}}, 40, 0.0F);
+  const Frame frame = canvas.frame();
+  const auto region = path::clean(frame);
+  ASSERT_TRUE(region);
+  const path::Cover cover(*region, frame, 20);
+  const Vector2f offset(static_cast<float>(region->offset_px.x),
+                        static_cast<float>(region->offset_px.y));
+
+  EXPECT_EQ(cover.at(Vector2f(320, 240) - offset, kRope_m), path::Sight::kHidden);
+  EXPECT_EQ(cover.at(Vector2f(400, 280) - offset, kRope_m), path::Sight::kOpen);
+  EXPECT_EQ(cover.at(Vector2f(150, 100) - offset, kRope_m), path::Sight::kUnknown) << "no depth";
+  EXPECT_EQ(cover.at(Vector2f(320, 240) - offset, 0), path::Sight::kUnknown) << "nor of the rope";
+  EXPECT_EQ(cover.beyond(Vector2f(290, 240) - offset, {1, 0}, kRope_m, 40), path::Sight::kHidden);
+  EXPECT_EQ(cover.beyond(Vector2f(200, 240) - offset, {0, 1}, kRope_m, 40), path::Sight::kOpen);
+  EXPECT_EQ(cover.beyond(Vector2f(200, 240) - offset, {1, 0}, kRope_m, 40), path::Sight::kUnknown)
+      << "farther than asked";
+}
+
+}  // namespace
+}  // namespace flowdlo::test

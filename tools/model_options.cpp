@@ -1,0 +1,51 @@
+#include "model_options.hpp"
+
+#include <map>
+#include <string>
+
+namespace flowdlo::tools {
+namespace {
+
+void add_prior_options(CLI::App& command, Config& config) {
+  command
+      .add_option("--prior", config.prior,
+                  "What the model refines: thesis (Eq. 3.1-3.7), refined (on the rope's axis), or "
+                  "auto, as the weights were trained")
+      ->transform(CLI::CheckedTransformer(
+          std::map<std::string, PriorChoice>{{"auto", PriorChoice::kOfWeights},
+                                             {"thesis", PriorChoice::kThesis},
+                                             {"refined", PriorChoice::kRefined}},
+          CLI::ignore_case))
+      ->type_name("KIND");
+  command
+      .add_option("--rope-length", config.rope_length_m,
+                  "Metres, where the rope's length is known; 0: unknown")
+      ->capture_default_str()
+      ->check(CLI::NonNegativeNumber);
+}
+
+}  // namespace
+
+void add_model_options(CLI::App& command, Config& config) {
+  command.add_option("--weights", config.weights, "A .fdw file [the one that ships]")
+      ->type_name("FILE");
+  command
+      .add_option("--device", config.device,
+                  "auto, vulkan, cpu, part of a device's name, or its UUID")
+      ->capture_default_str();
+  command.add_option("--steps", config.euler_steps, "Euler steps of the model")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 64));
+  command.add_option("--draws", config.draws, "Gaussian sources a frame")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 64));
+  command.add_option("--seed", config.seed, "Of the Gaussian sources")
+      ->capture_default_str()
+      ->check(CLI::NonNegativeNumber);
+  command.add_option("--threads", config.threads, "Of the CPU back end; 0: every core")
+      ->capture_default_str()
+      ->check(CLI::Range(0, 1024));
+  add_prior_options(command, config);
+}
+
+}  // namespace flowdlo::tools
