@@ -78,6 +78,29 @@ Error of_another_origin(const std::filesystem::path& file, const std::string& ex
                       file.string(), expected, got)};
 }
 
+bool same(const Record& a, const Record& b) {
+  return a.mask == b.mask && a.priors == b.priors && a.truth == b.truth &&
+         a.visible.points_cam == b.visible.points_cam && a.visible.valid == b.visible.valid;
+}
+
+/// Whether the shards in `folder` are of this origin, and of this engine and scene maker: the first
+/// record is made again.
+Result<void> check_kept(const std::filesystem::path& file, const std::string& origin,
+                        const SceneSource& source, const RecordOptions& options, Part part) {
+  const auto shard = read_shard(file);
+  if (!shard) return shard.error();
+  if (shard->origin != origin) return of_another_origin(file, origin, shard->origin);
+  if (shard->records.empty()) return {};
+  const Record& kept = shard->records.front();
+  const Outcome again = outcome_of(source, options, part, kept.index);
+  if (again.fault) return *again.fault;
+  if (again.record && same(*again.record, kept)) return {};
+  return Error{ErrorCode::kBadInput,
+               fmt::format("{}: expected the records that this program makes, got other ones of "
+                           "scene {}; delete the folder: engine or scene maker have changed",
+                           file.string(), kept.index)};
+}
+
 }  // namespace
 
 Result<void> make_records(const std::filesystem::path& folder, Part part, std::uint64_t scenes,
@@ -94,11 +117,8 @@ Result<void> make_records(const std::filesystem::path& folder, Part part, std::u
   const std::string origin = origin_of(source, options);
   std::uint32_t number = count_shards(folder, part);
   if (number > 0) {
-    const auto first = read_shard(shard_file(folder, part, 0));
-    if (!first) return first.error();
-    if (first->origin != origin) {
-      return of_another_origin(shard_file(folder, part, 0), origin, first->origin);
-    }
+    auto kept = check_kept(shard_file(folder, part, 0), origin, *make_scene, options, part);
+    if (!kept) return kept;
   }
   for (;; ++number) {
     Shard shard;

@@ -30,7 +30,8 @@ using Progress = std::function<void()>;
 
 /// Makes the shards of scenes [0, scenes) that are not there yet, `threads` at work. `scenes` is
 /// rounded up to whole shards, as far as the part goes. Fails with
-/// kBadInput when `folder` holds records of another origin, with kIo when it cannot be written.
+/// kBadInput when `folder` holds records of another origin, engine or scene maker, with kIo when it
+/// cannot be written.
 [[nodiscard]] Result<void> make_records(const std::filesystem::path& folder, Part part,
                                         std::uint64_t scenes, const SourceConfig& source,
                                         const RecordOptions& options, int threads,

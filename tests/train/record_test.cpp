@@ -170,6 +170,20 @@ TEST(RecordFolder, RecordsOfAnotherOriginAreRefused) {
   EXPECT_NE(other.error().message.find("another folder"), std::string::npos);
 }
 
+TEST(RecordFolder, RecordsThatComeOutDifferentlyNowAreRefused) {
+  const Folder folder;
+  const SourceConfig source{.maker = "sketch", .seed = 6};
+  ASSERT_TRUE(make_records(folder.path(), Part::kValidation, 1, source, kRefined, 2, {}));
+  const auto file = folder.path() / "validation-00000.records";
+  auto shard = read_shard(file);
+  ASSERT_TRUE(shard);
+  shard->records.front().priors.front().nodes[7].z += 1e-4F;  // as another engine might lift it
+  ASSERT_TRUE(write_shard(*shard, file));
+  const auto more = make_records(folder.path(), Part::kValidation, 200, source, kRefined, 2, {});
+  ASSERT_FALSE(more);
+  EXPECT_NE(more.error().message.find("have changed"), std::string::npos);
+}
+
 TEST(RecordFile, DamageIsNoticed) {
   const Folder folder;
   Shard shard;

@@ -20,8 +20,8 @@ using weights::NormalizationKind;
 
 constexpr ViewConfig kFrameNorm{NormalizationKind::kFrame, {}, TruthDirection::kPrior};
 
-/// Square pixels, the principal point in the middle, and scattered specks for a mask: beside a rope's
-/// straight border many pixels have two nearest ones.
+/// Square pixels, the principal point in the middle, and scattered specks for a mask: beside a
+/// rope's straight border many pixels have two nearest ones.
 Record square_record() {
   Record record = golden_record();
   constexpr std::uint16_t kPlaces[][2] = {{4, 10},  {8, 62},  {14, 84}, {20, 36}, {28, 6},
