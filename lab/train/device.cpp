@@ -1,0 +1,52 @@
+#include "train/device.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <fstream>
+#include <thread>
+
+#include "train/blas.hpp"
+
+namespace flowdlo::train {
+namespace {
+
+std::string processor_name() {
+  std::ifstream stream("/proc/cpuinfo");
+  for (std::string line; std::getline(stream, line);) {
+    const auto colon = line.find(": ");
+    if (line.starts_with("model name") && colon != std::string::npos) return line.substr(colon + 2);
+  }
+  return "CPU";
+}
+
+}  // namespace
+
+Result<torch::Device> choose_device(const std::string& wanted) {
+  const bool cuda = torch::cuda::is_available();
+  if (wanted == "cuda" && !cuda) {
+    return Error{ErrorCode::kNoDevice,
+                 "--device cuda: expected a CUDA device and a libtorch built for it, got none; use "
+                 "--device cpu, or build against another libtorch by CMAKE_PREFIX_PATH"};
+  }
+  if (wanted == "cpu" || !cuda) return torch::Device(torch::kCPU);
+  return torch::Device(torch::kCUDA, 0);
+}
+
+std::string describe(torch::Device device) {
+  if (device.is_cuda()) {
+    return fmt::format("CUDA device {}, libtorch {}", static_cast<int>(device.index()),
+                       TORCH_VERSION);
+  }
+  return fmt::format("{}, {} threads, libtorch {}", processor_name(), at::get_num_threads(),
+                     TORCH_VERSION);
+}
+
+void use_threads(int threads) {
+  const int count =
+      threads > 0 ? threads : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  at::set_num_threads(count);
+  set_blas_threads(count);
+}
+
+}  // namespace flowdlo::train
