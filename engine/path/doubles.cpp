@@ -27,22 +27,25 @@ constexpr float kHalfMost = 0.72F;
 constexpr float kRunSpread = 1.25F;    // and even
 constexpr float kSingleShare = 1.3F;   // of the narrow parts' width: one strand up to this
 constexpr float kFewestNarrow = 0.04F; // share of the stations that are one strand
-constexpr float kDoubleLeast = 1.35F;  // widths: two strands from this
+constexpr float kDoubleLeast = 1.25F;  // widths: two strands from this
 constexpr float kDoubleMost = 2.7F;    // to this
-constexpr float kMeanLeast = 1.45F;    // in the mean
+constexpr float kMeanLeast = 1.52F;    // in the mean
 constexpr float kMeanMost = 2.4F;
 constexpr float kShortest = 4.0F;      // widths; a flat crossing is shorter
 constexpr float kShortestPx = 20.0F;   // what frays leave on thin ropes is shorter too
 constexpr float kTrimWidths = 0.3F;    // what a round tip takes from the stretch
 constexpr float kTangentWidths = 3.0F; // what tells the direction at its end
-constexpr float kRunOutWidths = 2.5F;  // from there to where the strands part
+constexpr float kRunOutWidths = 2.5F;  // from there to where the strands part,
+constexpr float kCutOffWidths = 8.0F;  // or an occluder aslant hides both
 constexpr float kStepWidths = 2.0F;    // within this way two strands become one
 constexpr float kStepKept = 1.5F;      // and stay one for this long,
 constexpr float kSingleLeast = 0.75F;  // this wide at least
+constexpr float kSingleMost = 1.18F;   // and at most
 constexpr float kStepLeast = 0.1F;     // aside from the line the one lies at least this far
 constexpr float kTurnWidths = 1.0F;    // a strand that turns back takes this at the tip
 constexpr float kCornerDeep = 0.25F;   // so far before the edge a mask cut off
 constexpr float kCornerAside = 0.8F;   // reaches so far aside, a round one does not
+constexpr float kStandsSeamPx = 8.0F;
 constexpr float kLeastWidthPx = 1.5F;
 
 // Across the line at one of its points.
@@ -51,7 +54,8 @@ struct Station {
   Vector2f normal{0, 0};     // to its left
   float width_px = 0;
   float nearer = 1;  // how many times larger things look than where the rope usually is
-  float size_px = 0; // the width there; 0: an occluder hides a side
+  float size_px = 0;  // the width there
+  bool whole = true;  // no occluder hides a side
 
   [[nodiscard]] Vector2f edge(float side) const {
     return middle_px + 0.5F * side * width_px * normal;
@@ -152,8 +156,8 @@ void calm(std::vector<Line>& lines, const Cover& cover, float width_px) {
       if (usual_m > 0) {
         station.nearer = std::clamp(usual_m / before, 1 / kNearerMost, kNearerMost);
       }
-      const bool whole = !hidden(station, cover, before, width_px);
-      station.size_px = whole ? station.width_px / station.nearer : 0;
+      station.size_px = station.width_px / station.nearer;
+      station.whole = !hidden(station, cover, before, width_px);
     }
   }
 }
@@ -166,9 +170,11 @@ float least_kept(const std::vector<Line>& lines, float width_px, float none) {
   for (const Line& line : lines) {
     for (std::size_t i = 0; i + length <= line.size(); i += step) {
       std::vector<float> sizes;
-      for (std::size_t k = i; k < i + length; ++k) sizes.push_back(line[k].size_px);
+      for (std::size_t k = i; k < i + length && line[k].whole; ++k) {
+        sizes.push_back(line[k].size_px);
+      }
+      if (sizes.size() < length) continue;
       const float most = quantile(sizes, 0.85F);
-      if (*std::min_element(sizes.begin(), sizes.end()) <= 0) continue;
       if (most <= kRunSpread * quantile(sizes, 0.15F)) least = std::min(least, most);
     }
   }
@@ -186,7 +192,7 @@ float single_size(const std::vector<Line>& lines, float usual_px) {
   for (const Line& line : lines) {
     all += line.size();
     for (const Station& station : line) {
-      if (station.size_px > 0 && station.size_px <= kSingleShare * narrow) single.push_back(station.size_px);
+      if (station.whole && station.size_px <= kSingleShare * narrow) single.push_back(station.size_px);
     }
   }
   if (static_cast<float>(single.size()) < kFewestNarrow * static_cast<float>(all)) return 0;
@@ -209,6 +215,7 @@ class Cutter {
       const float mean = sum / length;
       const float width_px = size_px_ * line[(first + last) / 2].nearer;
       if (length >= std::max(kShortest * width_px, kShortestPx) && mean > kMeanLeast && mean < kMeanMost) {
+    if(getenv("DBG"))printf("mean %.2f ",mean);
         draw(segment, line, first, last - 1);
       }
       first = last;
@@ -223,7 +230,7 @@ class Cutter {
     return widths(station) > kDoubleLeast && widths(station) < kDoubleMost;
   }
   [[nodiscard]] bool single(const Station& station) const {
-    return widths(station) > kSingleLeast && widths(station) < 0.5F * (1 + kDoubleLeast);
+    return station.whole && widths(station) > kSingleLeast && widths(station) < kSingleMost;
   }
   [[nodiscard]] bool at_tip(const Segment& segment, int side) const {
     return !segment.ring() && graph_.nodes[segment.node[side]].ends.size() == 1;
@@ -274,7 +281,8 @@ class Cutter {
       points.push_back(corner + (corner - station->middle_px).normalized());
       return true;
     }
-    const float most = kRunOutWidths * width_px + 2;
+    const bool cut_off = tip && !after.empty() && !after.front().whole;
+    const float most = (cut_off ? kCutOffWidths : kRunOutWidths) * width_px + 2;
     const float to_edge = reach(mask_, from, direction, most);
     if (to_edge + kScanStepPx >= most) return false;
     if (!tip || !round(from + to_edge * direction, direction, width_px)) {
@@ -330,7 +338,8 @@ class Cutter {
 }  // namespace
 
 Doubles find_doubles(const Graph& graph, const Region& region, const Frame& frame) {
-  if (!region.seams.empty()) return {};  // the depth has told them apart
+  // Where the depth told strands apart, thin ones are narrower now than they are.
+  if (!region.seams.empty() && graph.width_px < kStandsSeamPx) return {};
   std::vector<Line> lines;
   for (const Segment& segment : graph.segments) {
     lines.emplace_back();
@@ -338,6 +347,7 @@ Doubles find_doubles(const Graph& graph, const Region& region, const Frame& fram
   }
   calm(lines, Cover(region, frame, graph.width_px), graph.width_px);
   const float width_px = single_size(lines, graph.width_px);
+  if(getenv("DBG2"))for(auto&l:lines){for(size_t i=0;i<l.size();i+=std::max<size_t>(1,l.size()/60))printf("%.1f(%.1f,%.2f)%s ",l[i].size_px,l[i].width_px,l[i].nearer,l[i].whole?"":"h");printf("\n\n");}
   if(getenv("DBG"))printf("single %.2f of %.2f\n",width_px,graph.width_px);
   if (width_px < kLeastWidthPx) return {};
   Cutter cutter(graph, region.mask, width_px);
