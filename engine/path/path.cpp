@@ -9,8 +9,10 @@
 #include "path/assemble.hpp"
 #include "path/bonds.hpp"
 #include "path/cover.hpp"
+#include "path/doubles.hpp"
 #include "path/graph.hpp"
 #include "path/hidden_forks.hpp"
+#include "path/magnified.hpp"
 #include "path/region.hpp"
 #include "path/search.hpp"
 #include "path/strands.hpp"
@@ -28,6 +30,8 @@ constexpr double kLengthTolerance = 0.08;
 constexpr double kMostTooLong = 60;
 constexpr double kMostTooShort = 8;  // depth may be missing where the rope goes on
 constexpr int kLengthCandidates = 12;
+constexpr float kThinDoublePx = 6.0F;  // strands thinner than this are cut apart magnified,
+constexpr int kMagnified = 2;          // by this
 
 float skeleton_length(const Graph& graph) {
   float sum = 0;
@@ -116,22 +120,20 @@ std::vector<Path> ranked_paths(const Strands& strands, const Region& region, con
   return paths;
 }
 
-Result<Traversals> trace_region(const Frame& frame, const TraceConfig& asked) {
-  auto region = clean(frame);
-  if (!region) return region.error();
-  Graph graph = graph_of(*region);
-  split_at_hidden_forks(graph, Cover(*region, frame, graph.width_px));
-  const Strands strands = make_strands(graph, *region, frame);
+Result<Traversals> trace_graph(Graph& graph, const Region& region, const Frame& frame,
+                               const TraceConfig& asked) {
+  split_at_hidden_forks(graph, Cover(region, frame, graph.width_px));
+  const Strands strands = make_strands(graph, region, frame);
   TraceConfig config = asked;
   config.alternatives = std::clamp(asked.alternatives, 0, kMostAlternatives);
 
   Traversals result;
   result.rope_width_px = strands.width_px;
-  result.ranked = ranked_paths(strands, *region, frame, config);
+  result.ranked = ranked_paths(strands, region, frame, config);
   if (result.ranked.empty()) {
     return Error{ErrorCode::kNoPath,
                  "path: expected a stroke longer than it is wide, got a spot of " +
-                     std::to_string(cv::countNonZero(region->mask)) +
+                     std::to_string(cv::countNonZero(region.mask)) +
                      " pixels; check the segmentation"};
   }
   if (result.ranked.size() > 1) {
@@ -140,6 +142,27 @@ Result<Traversals> trace_region(const Frame& frame, const TraceConfig& asked) {
   }
   const auto wanted = static_cast<std::size_t>(config.alternatives) + 1;
   if (result.ranked.size() > wanted) result.ranked.resize(wanted);
+  return result;
+}
+
+// Strands that the mask shows as one twice as wide are cut apart; magnified, where they are too
+// thin for a cut a pixel wide.
+Result<Traversals> trace_region(const Frame& frame, const TraceConfig& config) {
+  auto region = clean(frame);
+  if (!region) return region.error();
+  Graph graph = graph_of(*region);
+  const Doubles doubles = find_doubles(graph, *region, frame);
+  if (doubles.lines.empty()) return trace_graph(graph, *region, frame, config);
+  if (doubles.width_px >= kThinDoublePx) {
+    *region = cut(*region, doubles.lines);
+    graph = make_graph(thin(region->mask), *region);
+    return trace_graph(graph, *region, frame, config);
+  }
+  const Magnified magnified(frame, *region, kMagnified);
+  const Region large = cut(magnified.region(), magnified.enlarged(doubles.lines));
+  graph = make_graph(thin(large.mask), large);
+  auto result = trace_graph(graph, large, magnified.frame(), config);
+  if (result) magnified.shrink(*result);
   return result;
 }
 

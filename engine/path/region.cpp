@@ -18,6 +18,7 @@ constexpr float kHoleSpecksWidths = 0.05F;  // holes below this times width^2 ar
 constexpr float kHighlightWidths = 0.68F;   // filled half-width up to which a hole is a highlight
 constexpr float kNarrowShare = 0.75F;       // narrow parts below this share of the usual width
 constexpr float kStubbyWidths = 30.0F;      // strands beside each other, when shorter than this
+constexpr float kThinnestPx = 3.0F;         // strands thinner than this stand no seam
 constexpr float kHighlightArea = 6.0F;      // and its area in width^2, at most
 
 cv::Rect bounding_box(const Frame& frame) {
@@ -126,9 +127,17 @@ void cut_seams(const Frame& frame, Region& region) {
   region.width_px = widths.usual_px;
   region.seams = seams_of(region, widths, frame);
   if (region.seams.empty()) return;
-  region.mask.setTo(0, region.seams);
-  region.distance_px = distance_of(region.mask);
-  region.width_px = ridge_widths(region.distance_px).usual_px;
+  cv::Mat parted = region.mask.clone();
+  parted.setTo(0, region.seams);
+  cv::Mat distance_px = distance_of(parted);
+  const float width_px = ridge_widths(distance_px).usual_px;
+  if (width_px < kThinnestPx && widths.usual_px < 2 * kThinnestPx + 0.5F) {
+    region.seams = cv::Mat();
+    return;
+  }
+  region.mask = std::move(parted);
+  region.distance_px = std::move(distance_px);
+  region.width_px = width_px;
 }
 
 // Erases the components below `least_area`; returns the largest one's area, 0 if none is left.
@@ -203,6 +212,40 @@ bool fill_highlights(cv::Mat& mask, float width) {
 }
 
 }  // namespace
+
+Region cut(const Region& region, const std::vector<std::vector<Eigen::Vector2f>>& lines) {
+  Region result = region;
+  const auto pixel = [](const Eigen::Vector2f& p) {
+    return cv::Point(static_cast<int>(std::lround(p.x())), static_cast<int>(std::lround(p.y())));
+  };
+  cv::Mat drawn = cv::Mat::zeros(region.mask.size(), CV_8U);
+  for (const auto& line : lines) {  // without diagonal steps, which join what they pass
+    for (std::size_t i = 1; i < line.size(); ++i) {
+      cv::line(drawn, pixel(line[i - 1]), pixel(line[i]), cv::Scalar(1), 1, cv::LINE_4);
+    }
+  }
+  result.mask = region.mask.clone();
+  result.mask.setTo(0, drawn);
+  result.seams = region.seams.empty() ? drawn : cv::Mat(region.seams | drawn);
+  if (erase_specks(result.mask, 0) == 0) return region;
+  result.distance_px = distance_of(result.mask);
+  result.width_px = ridge_widths(result.distance_px).usual_px;
+  return result;
+}
+
+Region magnified(const Region& region, int times) {
+  Region result = region;
+  const auto enlarge = [times](const cv::Mat& image) {
+    cv::Mat large;
+    cv::resize(image, large, {}, times, times, cv::INTER_NEAREST);
+    return large;
+  };
+  result.mask = enlarge(region.mask);
+  if (!region.seams.empty()) result.seams = enlarge(region.seams);
+  result.distance_px = distance_of(result.mask);
+  result.width_px = ridge_widths(result.distance_px).usual_px;
+  return result;
+}
 
 Region smoothed(const Region& region, int size_px) {
   Region result = region;

@@ -2,7 +2,9 @@
 // that tell a loop's direction stay.
 #pragma once
 
+#include <Eigen/Core>
 #include <opencv2/core.hpp>
+#include <vector>
 
 #include "flowdlo/frame.hpp"
 #include "flowdlo/result.hpp"
@@ -23,6 +25,13 @@ struct Region {
 
 /// Crops and cleans the mask. Fails with kNoPath when it is empty or holds specks only.
 [[nodiscard]] Result<Region> clean(const Frame& frame);
+
+/// `region` cut along `lines`, which become seams; unchanged when nothing would be left of it.
+[[nodiscard]] Region cut(const Region& region,
+                         const std::vector<std::vector<Eigen::Vector2f>>& lines);
+
+/// `region` with each pixel `times` squared; `offset_px` stays.
+[[nodiscard]] Region magnified(const Region& region, int times);
 
 /// `region` after a majority filter over squares of `size_px` (odd), for frayed borders and noise;
 /// unchanged when nothing would be left of it.

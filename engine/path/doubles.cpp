@@ -1,0 +1,358 @@
+#include "path/doubles.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <opencv2/core.hpp>
+#include <vector>
+
+#include "path/cover.hpp"
+#include "path/midline.hpp"
+
+namespace flowdlo::path {
+namespace {
+
+using Eigen::Vector2f;
+using Points = std::vector<Vector2f>;
+
+constexpr float kScanStepPx = 0.25F;
+constexpr float kMostScan = 2.2F;      // usual widths to each side
+constexpr float kNearerMost = 2.5F;    // times nearer or farther than what is usual: else no rope
+constexpr float kRunWidths = 3.0F;     // a narrow part is at least this long,
+constexpr float kHalfLeast = 0.42F;    // between these shares of the usual width,
+constexpr float kHalfMost = 0.72F;
+constexpr float kRunSpread = 1.25F;    // and even
+constexpr float kSingleShare = 1.3F;   // of the narrow parts' width: one strand up to this
+constexpr float kFewestNarrow = 0.04F; // share of the stations that are one strand
+constexpr float kDoubleLeast = 1.25F;  // widths: two strands from this
+constexpr float kDoubleMost = 2.7F;    // to this
+constexpr float kMeanLeast = 1.52F;    // in the mean
+constexpr float kMeanMost = 2.4F;
+constexpr float kShortest = 4.0F;      // widths; a flat crossing is shorter
+constexpr float kShortestPx = 20.0F;   // what frays leave on thin ropes is shorter too
+constexpr float kTrimWidths = 0.3F;    // what a round tip takes from the stretch
+constexpr float kTangentWidths = 3.0F; // what tells the direction at its end
+constexpr float kRunOutWidths = 2.5F;  // from there to where the strands part,
+constexpr float kCutOffWidths = 8.0F;  // or an occluder aslant hides both
+constexpr float kStepWidths = 2.0F;    // within this way two strands become one
+constexpr float kStepKept = 1.5F;      // and stay one for this long,
+constexpr float kSingleLeast = 0.75F;  // this wide at least
+constexpr float kSingleMost = 1.18F;   // and at most
+constexpr float kStepLeast = 0.1F;     // aside from the line the one lies at least this far
+constexpr float kTurnWidths = 1.0F;    // a strand that turns back takes this at the tip
+constexpr float kCornerDeep = 0.25F;   // so far before the edge a mask cut off
+constexpr float kCornerAside = 0.8F;   // reaches so far aside, a round one does not
+constexpr float kStandsSeamPx = 8.0F;
+constexpr float kLeastWidthPx = 1.5F;
+
+// Across the line at one of its points.
+struct Station {
+  Vector2f middle_px{0, 0};  // of the mask
+  Vector2f normal{0, 0};     // to its left
+  float width_px = 0;
+  float nearer = 1;  // how many times larger things look than where the rope usually is
+  float size_px = 0;  // the width there
+  bool whole = true;  // no occluder hides a side
+
+  [[nodiscard]] Vector2f edge(float side) const {
+    return middle_px + 0.5F * side * width_px * normal;
+  }
+};
+
+using Line = std::vector<Station>;  // one for each of a segment's points
+
+bool lit(const cv::Mat& mask, const Vector2f& p) {
+  const auto u = static_cast<int>(std::lround(p.x()));
+  const auto v = static_cast<int>(std::lround(p.y()));
+  return u >= 0 && v >= 0 && u < mask.cols && v < mask.rows && mask.at<std::uint8_t>(v, u) != 0;
+}
+
+// How far the mask reaches from `p` along `direction`.
+float reach(const cv::Mat& mask, const Vector2f& p, const Vector2f& direction, float most_px) {
+  float walked = kScanStepPx;
+  while (walked < most_px && lit(mask, p + walked * direction)) walked += kScanStepPx;
+  return walked - 0.5F * kScanStepPx;
+}
+
+Line measured(const Segment& segment, const cv::Mat& mask, float width_px) {
+  const int half = std::clamp(static_cast<int>(std::lround(0.5F * width_px)), 2, 12);
+  const Points points = smoothed(segment.points_px, half);
+  const int last = static_cast<int>(points.size()) - 1;
+  const float most = kMostScan * width_px + 2;
+  Line line;
+  for (int i = 0; i <= last; ++i) {
+    const Vector2f along = points[std::min(i + half, last)] - points[std::max(i - half, 0)];
+    Station station{points[i]};
+    if (along.norm() > 0) {
+      station.normal = Vector2f(-along.y(), along.x()).normalized();
+      const float left = reach(mask, points[i], station.normal, most);
+      const float right = reach(mask, points[i], -station.normal, most);
+      station.middle_px += 0.5F * (left - right) * station.normal;
+      station.width_px = left + right;
+    }
+    line.push_back(station);
+  }
+  return line;
+}
+
+float quantile(std::vector<float> values, float share) {
+  const auto at = static_cast<std::ptrdiff_t>(share * static_cast<float>(values.size() - 1));
+  std::nth_element(values.begin(), values.begin() + at, values.end());
+  return values[static_cast<std::size_t>(at)];
+}
+
+// Running medians over 2 `half` + 1 values; zeros do not count.
+std::vector<float> calmed(const std::vector<float>& values, int half) {
+  std::vector<float> result;
+  std::vector<float> window;
+  const int count = static_cast<int>(values.size());
+  for (int i = 0; i < count; ++i) {
+    window.clear();
+    for (int k = std::max(0, i - half); k <= std::min(count - 1, i + half); ++k) {
+      if (values[k] > 0) window.push_back(values[k]);
+    }
+    result.push_back(window.empty() ? 0 : quantile(window, 0.5F));
+  }
+  return result;
+}
+
+// Whether an occluder ends the mask to a side of the station.
+bool hidden(const Station& station, const Cover& cover, float depth_m, float width_px) {
+  if (depth_m <= 0) return false;
+  const float most = kMostScan * width_px + 2;
+  return cover.beyond(station.middle_px, station.normal, depth_m, most) == Sight::kHidden ||
+         cover.beyond(station.middle_px, -station.normal, depth_m, most) == Sight::kHidden;
+}
+
+// Frays and single pixels leave the widths, noise and holes the depths.
+void calm(std::vector<Line>& lines, const Cover& cover, float width_px) {
+  const int half = std::max(2, static_cast<int>(0.75F * width_px));
+  std::vector<std::vector<float>> depths;
+  std::vector<float> all;
+  for (Line& line : lines) {
+    std::vector<float> widths;
+    std::vector<float> depth;
+    for (const Station& station : line) {
+      widths.push_back(station.width_px);
+      depth.push_back(cover.rope_depth(station.middle_px));
+    }
+    widths = calmed(widths, half);
+    depth = calmed(depth, 4 * half);
+    for (std::size_t i = 0; i < line.size(); ++i) {
+      line[i].width_px = widths[i];
+      if (depth[i] > 0) all.push_back(depth[i]);
+    }
+    depths.push_back(std::move(depth));
+  }
+  const float usual_m = all.empty() ? 0 : quantile(all, 0.5F);
+  for (std::size_t l = 0; l < lines.size(); ++l) {
+    float before = usual_m;
+    for (std::size_t i = 0; i < lines[l].size(); ++i) {
+      Station& station = lines[l][i];
+      if (depths[l][i] > 0) before = depths[l][i];
+      if (usual_m > 0) {
+        station.nearer = std::clamp(usual_m / before, 1 / kNearerMost, kNearerMost);
+      }
+      station.size_px = station.width_px / station.nearer;
+      station.whole = !hidden(station, cover, before, width_px);
+    }
+  }
+}
+
+// The least size that a line keeps for some way; `none` where no line is long enough.
+float least_kept(const std::vector<Line>& lines, float width_px, float none) {
+  float least = none;
+  const auto length = static_cast<std::size_t>(std::max(6.0F, kRunWidths * width_px));
+  const std::size_t step = std::max<std::size_t>(1, length / 6);
+  for (const Line& line : lines) {
+    for (std::size_t i = 0; i + length <= line.size(); i += step) {
+      std::vector<float> sizes;
+      for (std::size_t k = i; k < i + length && line[k].whole; ++k) {
+        sizes.push_back(line[k].size_px);
+      }
+      if (sizes.size() < length) continue;
+      const float most = quantile(sizes, 0.85F);
+      if (most <= kRunSpread * quantile(sizes, 0.15F)) least = std::min(least, most);
+    }
+  }
+  return least;
+}
+
+// The size of one strand; 0 where nothing tells it.
+float single_size(const std::vector<Line>& lines, float usual_px) {
+  // Twice: at first the usual width may be that of two strands.
+  float narrow = std::min(usual_px, least_kept(lines, usual_px, usual_px));
+  narrow = std::min(narrow, least_kept(lines, 0.5F * usual_px, narrow));
+  if (narrow > kHalfMost * usual_px || narrow < kHalfLeast * usual_px) narrow = usual_px;
+  std::vector<float> single;
+  std::size_t all = 0;
+  for (const Line& line : lines) {
+    all += line.size();
+    for (const Station& station : line) {
+      if (station.whole && station.size_px <= kSingleShare * narrow) single.push_back(station.size_px);
+    }
+  }
+  if (static_cast<float>(single.size()) < kFewestNarrow * static_cast<float>(all)) return 0;
+  return single.empty() ? 0 : quantile(single, 0.5F);
+}
+
+class Cutter {
+ public:
+  Cutter(const Graph& graph, const cv::Mat& mask, float width_px)
+      : graph_(graph), mask_(mask), size_px_(width_px) {}
+
+  void cut(const Segment& segment, const Line& line) {
+    const int count = static_cast<int>(line.size());
+    for (int first = 0; first < count; ++first) {
+      if (!wide(line[first])) continue;
+      int last = first;
+      float sum = 0;
+      for (; last < count && wide(line[last]); ++last) sum += widths(line[last]);
+      const auto length = static_cast<float>(last - first);
+      const float mean = sum / length;
+      const float width_px = size_px_ * line[(first + last) / 2].nearer;
+      if (length >= std::max(kShortest * width_px, kShortestPx) && mean > kMeanLeast && mean < kMeanMost) {
+    if(getenv("DBG"))printf("mean %.2f ",mean);
+        draw(segment, line, first, last - 1);
+      }
+      first = last;
+    }
+  }
+
+  [[nodiscard]] const std::vector<Points>& found() const { return found_; }
+
+ private:
+  [[nodiscard]] float widths(const Station& station) const { return station.size_px / size_px_; }
+  [[nodiscard]] bool wide(const Station& station) const {
+    return widths(station) > kDoubleLeast && widths(station) < kDoubleMost;
+  }
+  [[nodiscard]] bool single(const Station& station) const {
+    return station.whole && widths(station) > kSingleLeast && widths(station) < kSingleMost;
+  }
+  [[nodiscard]] bool at_tip(const Segment& segment, int side) const {
+    return !segment.ring() && graph_.nodes[segment.node[side]].ends.size() == 1;
+  }
+
+  void draw(const Segment& segment, const Line& line, int first, int last) {
+    const float width_px = size_px_ * line[(first + last) / 2].nearer;
+    Points points;
+    for (int i = first; i <= last; ++i) points.push_back(line[i].middle_px);
+    points = smoothed(std::move(points), std::max(1, static_cast<int>(0.5F * width_px)));
+    const Line after(line.begin() + last + 1, line.end());
+    Line before(line.begin(), line.begin() + first);
+    std::reverse(before.begin(), before.end());
+    const bool e1 = end_at(points, after, at_tip(segment, 1));
+    std::reverse(points.begin(), points.end());
+    const bool e2 = end_at(points, before, at_tip(segment, 0));
+    if(getenv("DBG"))printf("run %d..%d of %zu ends %d %d tips %d %d\n",first,last,line.size(),e2,e1,at_tip(segment,0),at_tip(segment,1));
+    if (!e1 || !e2) return;
+    // A whole piece of the mask as wide as this is one rope.
+    if (at_tip(segment, 0) && at_tip(segment, 1) && !step(before, width_px) &&
+        !step(after, width_px)) {
+      return;
+    }
+    found_.push_back(std::move(points));
+  }
+
+  // Ends the line at its back, where the strands part: at the mask's edge between them, or beside
+  // the step where one stops, or, where both turn into each other, a width short of the tip. False
+  // when none of these is near. `after` is what follows on the line.
+  [[nodiscard]] bool end_at(Points& points, const Line& after, bool tip) const {
+    const float nearer = after.empty() ? 1 : after.front().nearer;
+    const float width_px = size_px_ * nearer;
+    const auto trim = static_cast<std::size_t>(kTrimWidths * width_px);
+    if (points.size() < trim + 4) return false;
+    points.resize(points.size() - trim);
+    const auto back = std::min(
+        points.size() - 1, static_cast<std::size_t>(std::max(4.0F, kTangentWidths * width_px)));
+    const Vector2f along = points.back() - points[points.size() - 1 - back];
+    if (along.norm() <= 0) return false;
+    const Vector2f direction = along.normalized();
+    const Vector2f from = points.back();
+    if (const Station* station = step(after, width_px)) {
+      const float aside = cross(direction, station->middle_px - ahead(points, back, station->middle_px));
+      if (std::abs(aside) < kStepLeast * width_px) return false;
+      const Vector2f left(-direction.y(), direction.x());
+      const float side = (station->normal.dot(left) > 0) == (aside < 0) ? 1.0F : -1.0F;
+      const Vector2f corner = station->edge(side);
+      points.push_back(corner + (corner - station->middle_px).normalized());
+      return true;
+    }
+    const bool cut_off = tip && !after.empty() && !after.front().whole;
+    const float most = (cut_off ? kCutOffWidths : kRunOutWidths) * width_px + 2;
+    const float to_edge = reach(mask_, from, direction, most);
+    if (to_edge + kScanStepPx >= most) return false;
+    if (!tip || !round(from + to_edge * direction, direction, width_px)) {
+      points.push_back(from + (to_edge + 1) * direction);
+      return true;
+    }
+    const Vector2f edge = from + to_edge * direction;
+    while (points.size() > 1 && (points.back() - edge).norm() < kTurnWidths * width_px) {
+      points.pop_back();
+    }
+    return points.size() > 1;
+  }
+
+  // Where the line, bending on as it does, comes nearest to `p`.
+  static Vector2f ahead(const Points& points, std::size_t back, const Vector2f& p) {
+    const std::size_t last = points.size() - 1;
+    const Vector2f& from = points[last];
+    const Vector2f& middle = points[last - back / 2];
+    const Vector2f& start = points[last - 2 * (back / 2)];
+    const float step = std::max(1e-3F, (from - middle).norm());
+    const float t = (p - from).dot(from - middle) / (step * step);
+    return from + t * (from - middle) + 0.5F * t * (t + 1) * (from - 2 * middle + start);
+  }
+
+  static float cross(const Vector2f& a, const Vector2f& b) { return a.x() * b.y() - a.y() * b.x(); }
+
+  // Where the line goes on as one strand, soon and for long enough; null where it does not.
+  [[nodiscard]] const Station* step(const Line& after, float width_px) const {
+    const auto reach_px = static_cast<std::size_t>(kStepWidths * width_px) + 1;
+    const auto kept = static_cast<std::size_t>(kStepKept * width_px);
+    for (std::size_t i = 0; i < reach_px && i + kept < after.size(); ++i) {
+      if (single(after[i]) && single(after[i + kept / 2]) && single(after[i + kept])) {
+        return &after[i + kept / 8];
+      }
+    }
+    return nullptr;
+  }
+
+  // Whether the mask ends at `edge` as round as a strand that turns back.
+  [[nodiscard]] bool round(const Vector2f& edge, const Vector2f& direction, float width_px) const {
+    const Vector2f at = edge - kCornerDeep * width_px * direction;
+    const Vector2f left(-direction.y(), direction.x());
+    return !lit(mask_, at + kCornerAside * width_px * left) &&
+           !lit(mask_, at - kCornerAside * width_px * left);
+  }
+
+  const Graph& graph_;
+  const cv::Mat& mask_;
+  float size_px_;
+  std::vector<Points> found_;
+};
+
+}  // namespace
+
+Doubles find_doubles(const Graph& graph, const Region& region, const Frame& frame) {
+  // Where the depth told strands apart, thin ones are narrower now than they are.
+  if (!region.seams.empty() && graph.width_px < kStandsSeamPx) return {};
+  std::vector<Line> lines;
+  for (const Segment& segment : graph.segments) {
+    lines.emplace_back();
+    if (segment.alive) lines.back() = measured(segment, region.mask, graph.width_px);
+  }
+  calm(lines, Cover(region, frame, graph.width_px), graph.width_px);
+  const float width_px = single_size(lines, graph.width_px);
+  if(getenv("DBG2"))for(auto&l:lines){for(size_t i=0;i<l.size();i+=std::max<size_t>(1,l.size()/60))printf("%.1f(%.1f,%.2f)%s ",l[i].size_px,l[i].width_px,l[i].nearer,l[i].whole?"":"h");printf("\n\n");}
+  if(getenv("DBG"))printf("single %.2f of %.2f\n",width_px,graph.width_px);
+  if (width_px < kLeastWidthPx) return {};
+  Cutter cutter(graph, region.mask, width_px);
+  for (std::size_t i = 0; i < lines.size(); ++i) cutter.cut(graph.segments[i], lines[i]);
+  return {cutter.found(), width_px};
+}
+
+}  // namespace flowdlo::path
