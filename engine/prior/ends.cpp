@@ -27,6 +27,8 @@ constexpr float kMostHiddenWidths = 3.0F;  // of an end; a longer stretch is no 
 constexpr float kMostShare = 0.25F;        // of the strip that a cap may take
 constexpr float kFreePx = 2.5F;            // beyond a tip there is no mask
 constexpr float kNearerWidths = 2.0F;      // nearer than the rope: something before it
+constexpr float kHangsWidths = 5.0F;       // before what lies farther
+constexpr float kHeldShare = 0.4F;         // of the way there: not farther than what holds it
 constexpr float kEdgePx = 0.25F;           // how far both edges together lie beyond what was probed
 constexpr float kWidthFrom = 1.0F;         // widths from a tip between which the local width
 constexpr float kWidthTo = 3.0F;           // is measured
@@ -185,9 +187,11 @@ class StripEnd {
   }
 
  private:
-  /// Whether what lies beyond is nearer than the rope by two widths.
+  /// Whether what lies beyond is nearer than the rope by two widths, or about as far as a rope that
+  /// hangs before something farther: a gripper holds it.
   [[nodiscard]] bool covered(const Frame& frame, const Vector2f& out) const {
     std::vector<float> rope;
+    std::vector<float> behind;
     const float last = at(0).arclength_px;
     for (const Reading& reading : strip_.readings) {
       const Station& station = strip_.stations[static_cast<std::size_t>(reading.station)];
@@ -196,14 +200,21 @@ class StripEnd {
       }
     }
     if (rope.empty()) return false;
+    for (int i = 0; i < count() && reach(i) < kWidthTo * strip_.width_px; ++i) {
+      if (at(i).beside_m > 0) behind.push_back(at(i).beside_m);
+    }
     const float depth_m = median_of(rope);
-    const float nearer_m = depth_m * (1 - kNearerWidths * strip_.width_px * at(0).aside);
+    const float width_m = depth_m * strip_.width_px * at(0).aside;
+    const float height_m = behind.empty() ? 0 : median_of(behind) - depth_m;
+    const bool hangs = height_m > kHangsWidths * width_m;
+    const float covering_m =
+        hangs ? depth_m + kHeldShare * height_m : depth_m - kNearerWidths * width_m;
     int nearer = 0;
     for (const float step : {kFreePx, kFreePx + 1.5F, kFreePx + 3}) {
       const Vector2f p = at(0).point_px + step * out;
       if (!inside(frame, p)) continue;
       const float beyond_m = frame.depth_m[pixel(frame, p)];
-      nearer += beyond_m > 1e-6F && beyond_m < nearer_m ? 1 : 0;
+      nearer += beyond_m > 1e-6F && beyond_m < covering_m ? 1 : 0;
     }
     return nearer >= 2;
   }

@@ -33,6 +33,9 @@ constexpr float kMaskedGrowth = 0.1F;  // the mask shows where it runs, but not 
 constexpr float kGapGrowth = 0.25F;
 constexpr float kHiddenGrowth = 0.4F;  // under another strand
 constexpr float kMostSigma_m = 1.0F;
+// Nodes are shares of the rope: an end that is off moves all of them along it, the nearer the more.
+constexpr float kTipRadii = 0.5F;
+constexpr float kCoveredTip_m = 0.010F;  // the rope goes on under what covers it, or does not
 
 /// The centerline as a fine polyline, with what is known about each of its points.
 struct Curve {
@@ -103,6 +106,18 @@ std::vector<float> place_nodes(const Curve& curve, Prior& prior) {
                            t * curve.arclength_px[segment + 1]);
   }
   return arclength_px;
+}
+
+/// Adds what the doubt about the rope's ends does to the nodes between them. `extent` is free of
+/// the caps of the tips that are in plain sight.
+void doubt_ends(const Strip& strip, const Extent& extent, float radius_m, Prior& prior) {
+  const auto tip_m = [&](bool seen) { return seen ? kTipRadii * radius_m : kCoveredTip_m; };
+  const float first_m = tip_m(extent.begin_px > 0);
+  const float last_m = tip_m(extent.end_px < strip.stations.back().arclength_px);
+  for (std::size_t i = 0; i < kNodes; ++i) {
+    const float t = static_cast<float>(i) / (kNodes - 1);
+    prior.sigma_m[i] = std::hypot(prior.sigma_m[i], (1 - t) * first_m, t * last_m);
+  }
 }
 
 /// Eq. (3.3) and (3.6) at the nodes' projections. Returns whether any node is supported.
@@ -193,6 +208,7 @@ Result<Prior> refine(const path::Path& path, float rope_width_px, const evidence
   const Curve curve =
       make_curve(strip, rope, without_hidden_ends(strip, extent, rope.seen), frame.intrinsics.fx);
   const std::vector<float> arclength_px = place_nodes(curve, prior);
+  doubt_ends(strip, extent, rope.radius_m, prior);
   const float scale = geometry::pixel_scale(frame.width);
   const float radius_px = std::max(config.lift.lift_radius_px * scale, 0.5F * width_px);
   if (!support_nodes(strip, arclength_px, visible, frame.intrinsics, radius_px,
