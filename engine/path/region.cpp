@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "path/fringe.hpp"
 #include "path/seams.hpp"
 
 namespace flowdlo::path {
@@ -274,6 +275,7 @@ Result<Region> clean(const Frame& frame) {
   Region region;
   region.offset_px = {box.x - kBorderPx, box.y - kBorderPx};
   region.mask = crop(frame, box);
+  erase_fringes(region.mask);
   if (erase_specks(region.mask, 0) == 0) {
     return Error{ErrorCode::kNoPath, "path: expected a stroke, got only specks of fewer than " +
                                          std::to_string(kSpeckAreaPx) +

@@ -27,12 +27,15 @@ constexpr float kMostHiddenWidths = 3.0F;  // of an end; a longer stretch is no 
 constexpr float kMostShare = 0.25F;        // of the strip that a cap may take
 constexpr float kFreePx = 2.5F;            // beyond a tip there is no mask
 constexpr float kNearerWidths = 2.0F;      // nearer than the rope: something before it
-constexpr float kEdgePx = 0.25F;           // how far both edges together lie beyond what was probed
-constexpr float kWidthFrom = 1.0F;         // widths from a tip between which the local width
-constexpr float kWidthTo = 3.0F;           // is measured
-constexpr float kTipPx = 1.0F;             // what lies nearer to the tip is uncertain
-constexpr float kTipShare = 0.6F;          // of half a width: so much of a cap tells its shape
-constexpr float kTellingPx = 5.5F;         // caps of thinner ropes tell nothing
+constexpr float kInnerWidths = 15.0F;
+constexpr float kHangsWidths = 5.0F;  // before what lies farther
+constexpr float kHeldShare = 0.4F;    // of the way there: not farther than what holds it
+constexpr float kEdgePx = 0.25F;      // how far both edges together lie beyond what was probed
+constexpr float kWidthFrom = 1.0F;    // widths from a tip between which the local width
+constexpr float kWidthTo = 3.0F;      // is measured
+constexpr float kTipPx = 1.0F;        // what lies nearer to the tip is uncertain
+constexpr float kTipShare = 0.6F;     // of half a width: so much of a cap tells its shape
+constexpr float kTellingPx = 5.5F;    // caps of thinner ropes tell nothing
 // Caps are taken for round below the first mean fill, for square above the second, and for
 // something between them in between; the finer the mask, the nearer to what geometry says.
 constexpr float kCoarseRound = 0.90F;
@@ -185,25 +188,35 @@ class StripEnd {
   }
 
  private:
-  /// Whether what lies beyond is nearer than the rope by two widths.
+  /// Whether what lies beyond is nearer than the rope by two widths, or about as far as a rope that
+  /// hangs before something farther: a gripper holds it.
   [[nodiscard]] bool covered(const Frame& frame, const Vector2f& out) const {
     std::vector<float> rope;
-    const float last = at(0).arclength_px;
+    std::array<std::vector<float>, 2> heights;  // and farther in, clear of what covers the tip
     for (const Reading& reading : strip_.readings) {
       const Station& station = strip_.stations[static_cast<std::size_t>(reading.station)];
-      if (std::abs(station.arclength_px - last) < kWidthFrom * strip_.width_px) {
-        rope.push_back(reading.depth_m);
-      }
+      const float in_px = std::abs(station.arclength_px - at(0).arclength_px);
+      if (in_px < kWidthFrom * strip_.width_px) rope.push_back(reading.depth_m);
+      const float in = in_px / strip_.width_px;
+      if (station.beside_m <= 0 || in > kInnerWidths) continue;
+      heights[in < kWidthTo ? 0 : 1].push_back(station.beside_m - reading.depth_m);
     }
     if (rope.empty()) return false;
     const float depth_m = median_of(rope);
-    const float nearer_m = depth_m * (1 - kNearerWidths * strip_.width_px * at(0).aside);
+    const float width_m = depth_m * strip_.width_px * at(0).aside;
+    float height_m = 0;
+    for (std::vector<float>& some : heights) {
+      if (!some.empty() && height_m <= kHangsWidths * width_m) height_m = median_of(some);
+    }
+    const bool hangs = height_m > kHangsWidths * width_m;
+    const float covering_m =
+        hangs ? depth_m + kHeldShare * height_m : depth_m - kNearerWidths * width_m;
     int nearer = 0;
     for (const float step : {kFreePx, kFreePx + 1.5F, kFreePx + 3}) {
       const Vector2f p = at(0).point_px + step * out;
       if (!inside(frame, p)) continue;
       const float beyond_m = frame.depth_m[pixel(frame, p)];
-      nearer += beyond_m > 1e-6F && beyond_m < nearer_m ? 1 : 0;
+      nearer += beyond_m > 1e-6F && beyond_m < covering_m ? 1 : 0;
     }
     return nearer >= 2;
   }

@@ -11,10 +11,12 @@
 #include "geometry/camera.hpp"
 #include "geometry/polyline.hpp"
 #include "prior/association.hpp"
+#include "prior/doubt.hpp"
 #include "prior/ends.hpp"
 #include "prior/rope_depth.hpp"
 #include "prior/side_by_side.hpp"
 #include "prior/strip.hpp"
+#include "prior/sunken.hpp"
 
 namespace flowdlo::prior {
 namespace {
@@ -23,16 +25,6 @@ using Eigen::Vector2f;
 using Eigen::Vector3f;
 
 constexpr float kMostWidthPx = 400.0F;
-// sigma_m: what seen nodes are off by on drawn scenes, doubled; then metres a metre of rope away
-// from the nearest seen one.
-constexpr float kSigmaFloor_m = 0.0005F;
-constexpr float kSigmaPixels = 0.4F;
-constexpr float kSigmaNoise = 0.2F;    // what smoothing leaves of the depths' noise
-constexpr float kMaskedGrowth = 0.1F;  // the mask shows where it runs, but not how deep
-constexpr float kGapGrowth = 0.25F;
-constexpr float kHiddenGrowth = 0.4F;  // under another strand
-constexpr float kMostSigma_m = 1.0F;
-
 /// The centerline as a fine polyline, with what is known about each of its points.
 struct Curve {
   std::vector<Vector3f> points_cam;
@@ -40,40 +32,21 @@ struct Curve {
   std::vector<float> sigma_m;
 };
 
-/// What each station's sigma grows by on the way from the nearest one that is seen.
-std::vector<float> unseen_growth(const std::vector<Vector3f>& points, const Strip& strip,
-                                 const RopeDepth& rope) {
-  std::vector<float> growth(points.size(), kMostSigma_m);
-  const auto pass = [&](std::size_t i, std::size_t from) {
-    const float open = strip.stations[i].masked ? kMaskedGrowth : kGapGrowth;
-    const float rate = rope.hidden[i] != 0 ? kHiddenGrowth : open;
-    growth[i] = std::min(growth[i], growth[from] + rate * (points[i] - points[from]).norm());
-  };
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    if (rope.seen[i] != 0) growth[i] = 0;
-  }
-  for (std::size_t i = 1; i < points.size(); ++i) pass(i, i - 1);
-  for (std::size_t i = points.size() - 1; i-- > 0;) pass(i, i + 1);
-  return growth;
-}
-
 Curve make_curve(const Strip& strip, const RopeDepth& rope, const Extent& extent, float fx) {
   std::vector<Vector3f> points;
   for (std::size_t i = 0; i < strip.stations.size(); ++i) {
     points.push_back(strip.stations[i].ray * static_cast<float>(rope.axis_m[i]));
   }
-  const std::vector<float> growth = unseen_growth(points, strip, rope);
+  const std::vector<float> sigma_m = station_sigma_m(points, strip, rope, fx);
   Curve curve;
   const auto add = [&](float arclength_px) {
     const float at = std::clamp(arclength_px / std::max(strip.step_px, 1e-6F), 0.0F,
                                 static_cast<float>(points.size() - 1));
     const std::size_t i = std::min(static_cast<std::size_t>(at), points.size() - 2);
     const float t = at - static_cast<float>(i);
-    const float own = kSigmaFloor_m + kSigmaPixels * points[i].z() / fx;
-    const float grown = (1 - t) * growth[i] + t * growth[i + 1];
     curve.points_cam.push_back((1 - t) * points[i] + t * points[i + 1]);
     curve.arclength_px.push_back(arclength_px);
-    curve.sigma_m.push_back(std::hypot(own, kSigmaNoise * rope.noise_m, grown));
+    curve.sigma_m.push_back((1 - t) * sigma_m[i] + t * sigma_m[i + 1]);
   };
   add(extent.begin_px);
   for (const Station& station : strip.stations) {
@@ -182,6 +155,7 @@ Result<Prior> refine(const path::Path& path, float rope_width_px, const evidence
   const std::vector<Vector2f> points_px = to_the_tips(inside(path, frame), width_px, frame);
   Strip strip = make_strip(points_px, width_px, frame, cloud);
   if (const auto apart = side_by_side(strip)) strip = make_strip(*apart, width_px, frame, cloud);
+  drop_sunken(strip);
   const Extent extent = without_caps(strip, frame);
   const RopeDepth rope = measure_rope(strip, extent);
   if (rope.axis_m.empty()) {
@@ -191,6 +165,7 @@ Result<Prior> refine(const path::Path& path, float rope_width_px, const evidence
   const Curve curve =
       make_curve(strip, rope, without_hidden_ends(strip, extent, rope.seen), frame.intrinsics.fx);
   const std::vector<float> arclength_px = place_nodes(curve, prior);
+  doubt_along({strip, extent, rope, frame}, arclength_px, prior);
   const float scale = geometry::pixel_scale(frame.width);
   const float radius_px = std::max(config.lift.lift_radius_px * scale, 0.5F * width_px);
   if (!support_nodes(strip, arclength_px, visible, frame.intrinsics, radius_px,

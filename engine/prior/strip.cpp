@@ -20,6 +20,7 @@ constexpr int kMostStations = 8192;
 constexpr float kTangentWidths = 0.35F;  // to both sides
 constexpr float kEdgeWidths = 1.8F;      // how far the mask's edge is looked for
 constexpr float kOffAxisWidths = 0.3F;   // how far the path may leave the mask and still be on it
+constexpr float kBesidePx = 2.5F;        // beyond the mask's edge: clear of mixed pixels
 constexpr float kStrandWidths = 3.0F;    // stations farther apart along the path: other strands
 constexpr float kStrandPx = 4.0F;
 constexpr float kMostCells = 512;        // of the grid, to a side
@@ -84,6 +85,21 @@ std::vector<Station> place_stations(std::span<const Vector2f> path_px, float wid
   return stations;
 }
 
+/// Mean depth at `p` and a little farther out, where there is no mask; 0 without any.
+float beyond_m(const Vector2f& p, const Vector2f& outward, const Image& image) {
+  float sum = 0;
+  int count = 0;
+  for (const float step : {0.0F, 1.5F, 3.0F}) {
+    const std::ptrdiff_t pixel = image.pixel(p + step * outward);
+    if (pixel < 0 || image.masked(p + step * outward)) continue;
+    const float depth_m = image.depth_m(pixel);
+    if (depth_m <= 0) continue;
+    sum += depth_m;
+    ++count;
+  }
+  return count > 0 ? sum / static_cast<float>(count) : 0;
+}
+
 /// Walks from the axis to the mask's edges and keeps what lies within half a width.
 void read_across(int index, float width_px, const Image& image, Strip& strip) {
   Station& station = strip.stations[static_cast<std::size_t>(index)];
@@ -115,6 +131,9 @@ void read_across(int index, float width_px, const Image& image, Strip& strip) {
   station.left_px = left - start;
   station.right_px = right + start;
   station.bounded = left < most && right < most;
+  const Vector2f& across = station.normal;
+  station.beside_m = std::max(beyond_m(at(-station.left_px) - kBesidePx * across, -across, image),
+                              beyond_m(at(station.right_px) + kBesidePx * across, across, image));
   const float half = 0.5F * width_px;
   const auto first = static_cast<int>(std::ceil(std::max(-half, -station.left_px) / step));
   const auto last = static_cast<int>(std::floor(std::min(half, station.right_px) / step));

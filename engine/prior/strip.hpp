@@ -19,6 +19,7 @@ struct Station {
   float aside = 0;               ///< metres across the ray for 1 px of offset at 1 m of depth
   float left_px = 0;             ///< how far the mask reaches along -normal,
   float right_px = 0;            ///< and along +normal
+  float beside_m = 0;            ///< depth beyond the mask's edges, the deeper side's; 0: none
   bool masked = false;           ///< the path runs over the mask here
   bool bounded = false;          ///< the mask ends on both sides within reach
 };

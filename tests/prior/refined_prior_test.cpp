@@ -312,10 +312,36 @@ TEST(Refine, GivesASigmaThatGrowsFromWhatIsSeen) {
   DrawnRope rope = draw_rope(straight_line());
   erase_depth(rope, 320, 640);
   const Prior prior = refined(rope);
-  EXPECT_NEAR(prior.sigma_m[5], prior.sigma_m[20], 1e-5);
-  for (std::size_t i = 35; i + 1 < prior.nodes.size(); ++i) {
+  EXPECT_LT(5 * prior.sigma_m[5], prior.sigma_m.back());
+  for (std::size_t i = 40; i + 1 < prior.nodes.size(); ++i) {
     EXPECT_LT(prior.sigma_m[i], prior.sigma_m[i + 1]) << "node " << i;
   }
+}
+
+TEST(Refine, DoubtsTheNodesNearAnEndOutsideOfTheImage) {
+  const Prior prior = refined(draw_rope({{-0.2, -0.004, 0.6}, {0.4, 0.008, 0.6}}));
+  EXPECT_GT(prior.sigma_m.back(), 0.01F);
+  EXPECT_LT(prior.sigma_m.front(), 0.003F);
+  EXPECT_LT(prior.sigma_m[20], prior.sigma_m[50]);
+}
+
+TEST(Refine, KeepsTheTipOfARopeThatAGripperHolds) {
+  DrawnRope rope = draw_rope(straight_line());
+  for (int v = 220; v < 270; ++v) {  // a gripper about as far as the rope, from its end on
+    for (int u = 520; u < 560; ++u) {
+      const std::size_t at = rope.index(u, v);
+      rope.image.depth_m[at] = 0.595F;
+      rope.image.mask[at] = 0;
+    }
+  }
+  for (Eigen::Vector2f& p : rope.path.points_px) p.x() = std::min(p.x(), 519.0F);
+  rope.path.points_px.erase(std::unique(rope.path.points_px.begin(), rope.path.points_px.end()),
+                            rope.path.points_px.end());
+  rope.path.bridged.resize(rope.path.points_px.size());
+  const Prior prior = refined(rope);
+  EXPECT_NEAR(prior.nodes.back().x, 0.2F, 0.0015F) << "a round cap lies within the gripper";
+  EXPECT_NEAR(prior.nodes.front().x, -0.2F, 0.0015F);
+  EXPECT_GT(prior.sigma_m.back(), 2 * prior.sigma_m.front());
 }
 
 // Of ropes of slightly different lengths, so that some node lies in the middle of what is unseen.

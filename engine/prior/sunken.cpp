@@ -1,0 +1,152 @@
+#include "prior/sunken.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace flowdlo::prior {
+namespace {
+
+constexpr float kBlockWidths = 0.5F;
+constexpr float kLeastBlockPx = 4.0F;
+constexpr std::size_t kLeastReadings = 2;  // of a block
+constexpr float kCoreWidths = 0.35F;       // from the axis
+constexpr float kNearShare = 0.35F;        // quantile of a block's depths: pixels fly backwards
+constexpr float kSteepest = 2.7F;          // metres of depth a metre aside
+constexpr float kJumpWidths = 2.0F;
+constexpr float kJumpShare = 0.01F;      // of the depth: noise
+constexpr float kSunkShare = 0.35F;      // of the neighbour's height over the background, at most
+constexpr std::size_t kLeastBlocks = 3;  // of a stretch in mid-air
+constexpr float kHighWidths = 10.0F;     // over the background: in mid-air
+constexpr float kLeastHanging = 0.25F;   // of all blocks; less is something before the rope
+
+struct Block {
+  float arclength_px = 0;
+  float depth_m = 0;
+  float beside_m = 0;  // 0: unknown
+  float aside = 0;
+};
+
+/// Blocks that no jump parts.
+struct Run {
+  std::size_t first = 0;
+  std::size_t last = 0;
+  bool hangs = false;  // high over the background
+  bool sunk = false;
+};
+
+float quantile(std::vector<float>& values, float share) {
+  const auto at = static_cast<std::ptrdiff_t>(share * static_cast<float>(values.size() - 1));
+  std::nth_element(values.begin(), values.begin() + at, values.end());
+  return values[static_cast<std::size_t>(at)];
+}
+
+std::vector<Block> blocks_of(const Strip& strip, int length) {
+  const std::size_t count = (strip.stations.size() - 1) / static_cast<std::size_t>(length) + 1;
+  std::vector<std::vector<float>> depths(count);
+  std::vector<std::vector<float>> beside(count);
+  for (const Reading& reading : strip.readings) {
+    if (reading.rival >= 0 || std::abs(reading.offset_px) > kCoreWidths * strip.width_px + 0.5F)
+      continue;
+    depths[static_cast<std::size_t>(reading.station / length)].push_back(reading.depth_m);
+  }
+  for (std::size_t i = 0; i < strip.stations.size(); ++i) {
+    const float depth_m = strip.stations[i].beside_m;
+    if (depth_m > 0) beside[i / static_cast<std::size_t>(length)].push_back(depth_m);
+  }
+  std::vector<Block> blocks;
+  for (std::size_t b = 0; b < count; ++b) {
+    if (depths[b].size() < kLeastReadings) continue;
+    const Station& at = strip.stations[b * static_cast<std::size_t>(length)];
+    blocks.push_back({at.arclength_px, quantile(depths[b], kNearShare),
+                      beside[b].empty() ? 0 : quantile(beside[b], 0.5F), at.aside});
+  }
+  return blocks;
+}
+
+/// Metres by which two blocks may differ.
+float reach_m(const Block& a, const Block& b, float width_px) {
+  const float near_m = std::min(a.depth_m, b.depth_m);
+  const float apart = std::abs(a.arclength_px - b.arclength_px) * a.aside;
+  return near_m * (kSteepest * apart + kJumpWidths * width_px * a.aside + kJumpShare);
+}
+
+std::vector<Run> runs_of(const std::vector<Block>& blocks, float width_px) {
+  std::vector<Run> runs;
+  for (std::size_t i = 0; i < blocks.size(); ++i) {
+    const bool on = i > 0 && std::abs(blocks[i].depth_m - blocks[i - 1].depth_m) <=
+                                 reach_m(blocks[i], blocks[i - 1], width_px);
+    if (!on) runs.push_back({i, i});
+    runs.back().last = i;
+  }
+  return runs;
+}
+
+/// Median height of a run's blocks over the background, as a share of that of `near_m`, or in
+/// widths where that is 0. Below 0 without any background.
+float height(const std::vector<Block>& blocks, const Run& run, float near_m, float width_px) {
+  std::vector<float> heights;
+  for (std::size_t i = run.first; i <= run.last; ++i) {
+    const Block& block = blocks[i];
+    if (block.beside_m <= near_m) continue;
+    const float unit =
+        near_m > 0 ? block.beside_m - near_m : width_px * block.aside * block.depth_m;
+    heights.push_back((block.beside_m - block.depth_m) / unit);
+  }
+  return heights.empty() ? -1 : quantile(heights, 0.5F);
+}
+
+std::size_t size(const Run& run) { return run.last - run.first + 1; }
+
+/// Marks the runs that are sunk: beside one in mid-air, farther, and close to the background.
+void mark_sunk(const std::vector<Block>& blocks, float width_px, std::vector<Run>& runs) {
+  std::size_t hanging = 0;
+  for (Run& run : runs) {
+    run.hangs = size(run) >= kLeastBlocks && height(blocks, run, 0, width_px) > kHighWidths;
+    if (run.hangs) hanging += size(run);
+  }
+  if (static_cast<float>(hanging) < kLeastHanging * static_cast<float>(blocks.size())) return;
+  for (std::size_t r = 0; r < runs.size(); ++r) {
+    float near_m = 0;  // of the neighbours in mid-air
+    bool nearer = false;
+    const auto compare = [&](const Run& other, std::size_t there, std::size_t here) {
+      if (!other.hangs) return;
+      const bool behind = blocks[here].depth_m > blocks[there].depth_m;
+      nearer = nearer || !behind;
+      if (behind) near_m = std::max(near_m, blocks[there].depth_m);
+    };
+    if (r > 0) compare(runs[r - 1], runs[r - 1].last, runs[r].first);
+    if (r + 1 < runs.size()) compare(runs[r + 1], runs[r + 1].first, runs[r].last);
+    if (near_m <= 0 || nearer) continue;
+    const float share = height(blocks, runs[r], near_m, width_px);
+    runs[r].sunk = share >= 0 && share <= kSunkShare;
+  }
+}
+
+}  // namespace
+
+void drop_sunken(Strip& strip) {
+  const float step_px = std::max(strip.step_px, 1e-3F);
+  const int length = std::max(
+      1, static_cast<int>(std::max(kBlockWidths * strip.width_px, kLeastBlockPx) / step_px));
+  const std::vector<Block> blocks = blocks_of(strip, length);
+  std::vector<Run> runs = runs_of(blocks, strip.width_px);
+  if (runs.size() < 2) return;
+  mark_sunk(blocks, strip.width_px, runs);
+  std::vector<std::uint8_t> drop(strip.stations.size(), 0);
+  for (const Run& run : runs) {
+    if (!run.sunk) continue;
+    for (std::size_t i = 0; i < strip.stations.size(); ++i) {
+      const float at = strip.stations[i].arclength_px;
+      const float last = blocks[run.last].arclength_px + static_cast<float>(length) * step_px;
+      if (at >= blocks[run.first].arclength_px && at < last) drop[i] = 1;
+    }
+  }
+  std::erase_if(strip.readings, [&](const Reading& reading) {
+    return drop[static_cast<std::size_t>(reading.station)] != 0;
+  });
+}
+
+}  // namespace flowdlo::prior

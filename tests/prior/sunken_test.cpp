@@ -1,0 +1,71 @@
+#include "prior/sunken.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstddef>
+
+#include "drawn_rope.hpp"
+#include "prior/strip.hpp"
+
+namespace flowdlo::prior {
+namespace {
+
+using testing::draw_rope;
+using testing::DrawnRope;
+using testing::straight_line;
+
+constexpr float kWall_m = 2.0F;
+
+/// Depth of the mask's pixels from column `first` to `last`, and of the wall behind them.
+void repaint(DrawnRope& rope, int first, int last, float rope_m, float wall_m = kWall_m) {
+  for (int v = 0; v < rope.image.height; ++v) {
+    for (int u = first; u <= last; ++u) {
+      const std::size_t at = rope.index(u, v);
+      rope.image.depth_m[at] = rope.image.mask[at] > 127 ? rope_m : wall_m;
+    }
+  }
+}
+
+Strip dropped(const DrawnRope& rope) {
+  const Frame frame = rope.frame();
+  Strip strip = make_strip(rope.path.points_px, rope.width_px, frame, evidence::unproject(frame));
+  drop_sunken(strip);
+  return strip;
+}
+
+int readings_between(const Strip& strip, float first_u, float last_u) {
+  int count = 0;
+  for (const Reading& reading : strip.readings) {
+    const float u = strip.stations[static_cast<std::size_t>(reading.station)].point_px.x();
+    count += u > first_u && u < last_u ? 1 : 0;
+  }
+  return count;
+}
+
+TEST(Sunken, AStretchAtTheWallsDepthIsDroppedAndTheRestKept) {
+  DrawnRope rope = draw_rope(straight_line());
+  repaint(rope, 250, 400, 1.86F);
+  const Strip strip = dropped(rope);
+  EXPECT_EQ(readings_between(strip, 256, 394), 0);
+  EXPECT_GT(readings_between(strip, 130, 240), 500);
+  EXPECT_GT(readings_between(strip, 410, 510), 500);
+}
+
+TEST(Sunken, ThePriorBridgesTheStretch) {
+  DrawnRope rope = draw_rope(straight_line());
+  repaint(rope, 250, 400, 1.86F);
+  const auto prior = rope.refined();
+  ASSERT_TRUE(prior);
+  for (const Point3& node : prior->nodes) EXPECT_NEAR(node.z, 0.6F, 0.004F);
+}
+
+TEST(Sunken, ARopeOnTheWallWithSomethingBeforeItIsKept) {
+  DrawnRope rope = draw_rope(straight_line());
+  repaint(rope, 0, 639, 0.6F, 0.608F);
+  repaint(rope, 250, 290, 0.4F, 0.608F);
+  EXPECT_GT(readings_between(dropped(rope), 130, 240), 500);
+  EXPECT_GT(readings_between(dropped(rope), 300, 500), 500);
+}
+
+}  // namespace
+}  // namespace flowdlo::prior
