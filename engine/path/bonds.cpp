@@ -18,15 +18,15 @@ constexpr std::size_t kMostAtCrossing = 64;
 constexpr float kMostBending = 20.0F;
 constexpr float kChangeSides = 4.0F;
 constexpr float kKeepSides = 1.0F;
-constexpr float kSharedWidths = 5.0F;      // longest strand that a second one may lie on
-constexpr float kSharing = 0.6F;           // costs this
-constexpr float kLongWidths = 6.0F;        // bridges from this length on,
-constexpr float kCurved = 0.6F;            // or that turn by this angle (rad)
-constexpr float kKnownWidths = 3.0F;       // strands shorter than this are trusted less,
-constexpr float kLeastTrust = 0.35F;       // down to this
-constexpr float kGapWidths = 6.0F;         // no curve costs less a width than one in so many
-constexpr float kGapStart = 0.5F;          // a gap costs this beside its curve
-constexpr float kGapAtCrossing = 1.5F;     // more, where one side is no tip
+constexpr float kSharedWidths = 5.0F;   // longest strand of one width that a second one may lie on
+constexpr float kSharing = 0.6F;        // costs this
+constexpr float kLongWidths = 6.0F;     // bridges from this length on,
+constexpr float kCurved = 0.6F;         // or that turn by this angle (rad)
+constexpr float kKnownWidths = 3.0F;    // strands shorter than this are trusted less,
+constexpr float kLeastTrust = 0.35F;    // down to this
+constexpr float kGapWidths = 6.0F;      // no curve costs less a width than one in so many
+constexpr float kGapStart = 0.5F;       // a gap costs this beside its curve
+constexpr float kGapAtCrossing = 1.5F;  // more, where one side is no tip
 constexpr float kGapAtCutCrossing = 0.3F;  // less, where an occluder begins there
 constexpr float kMostGapCost = 16.0F;
 constexpr float kDepthWeight = 1.5F;
@@ -110,7 +110,7 @@ class Builder {
 
   std::vector<std::vector<Bond>> run() {
     through_crossings();
-    along_short_strands();
+    along_shared_strands();
     across_gaps();
     for (auto& list : bonds_) {
       std::sort(list.begin(), list.end(), [](const Bond& a, const Bond& b) {
@@ -149,9 +149,9 @@ class Builder {
     }
   }
 
-  // Where crossings are crowded, two strands may lie on each other for a while and look like one
-  // short strand between two crossings. One of them takes it, the other passes along it.
-  void along_short_strands() {
+  // Where crossings are crowded, two strands may lie on or beside each other for a while and look
+  // like one strand between two crossings. One of them takes it, the other passes along it.
+  void along_shared_strands() {
     std::map<int, std::vector<int>> met;
     for (int id = 0; id < static_cast<int>(bonds_.size()); ++id) {
       if (!strands_.end(id).tip()) met[strands_.end(id).crossing].push_back(id);
@@ -160,8 +160,10 @@ class Builder {
       const StrandEnd& front = strands_.end(2 * s);
       const StrandEnd& back = strands_.end(2 * s + 1);
       if (front.tip() || back.tip() || front.crossing == back.crossing) continue;
-      if ((front.node_px - back.node_px).norm() > kSharedWidths * strands_.scale_px) continue;
-      if (strands_.list[s].covers_px > kSharedWidths * strands_.scale_px) continue;
+      const float most = kSharedWidths * strands_.scale_px;
+      const bool brief =
+          (front.node_px - back.node_px).norm() <= most && strands_.list[s].covers_px <= most;
+      if (!brief && !strands_.list[s].doubled) continue;
       for (const int from : met[front.crossing]) {
         for (const int to : met[back.crossing]) pass_along(s, from, to);
       }
@@ -172,9 +174,15 @@ class Builder {
     if (from / 2 == shared || to / 2 == shared || from / 2 == to / 2) return;
     const StrandEnd& a = strands_.end(from);
     const StrandEnd& b = strands_.end(to);
+    float bend = bending(a, b, strands_.scale_px);
+    if (strands_.list[shared].doubled) {  // its own bend is free: both follow it
+      const float in = angle(a.outward, -strands_.end(2 * shared).outward);
+      const float out = angle(strands_.end(2 * shared + 1).outward, -b.outward);
+      bend = std::min(bend, in * in + out * out);
+    }
     const float trust = std::min(trust_in(from), trust_in(to));
     const float depth = depth_misfit(a, b, strands_.width_px, frame_.intrinsics.fx, false);
-    add(from, to, kSharing + trust * bending(a, b, strands_.scale_px) + depth, false);
+    add(from, to, kSharing + trust * bend + depth, false);
   }
 
   // A stump's direction is hardly known.

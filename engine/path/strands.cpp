@@ -18,9 +18,11 @@ using Eigen::Vector2f;
 using Points = std::vector<Vector2f>;
 
 constexpr float kLeastScalePx = 4.0F;
-constexpr float kFullShare = 0.85F;   // of the usual half width: a tip begins below
-constexpr float kTipWidths = 5.0F;    // the stretch that tells what is usual
-constexpr float kDepthWidths = 3.0F;  // length over which a depth is fitted
+constexpr float kFullShare = 0.85F;      // of the usual half width: a tip begins below
+constexpr float kTipWidths = 5.0F;       // the stretch that tells what is usual
+constexpr float kDoubledWidths = 1.25F;  // the mask is at least this wide,
+constexpr float kDoubledLength = 20.0F;  // for no longer than this
+constexpr float kDepthWidths = 3.0F;     // length over which a depth is fitted
 constexpr int kDepthSamples = 16;
 constexpr float kSlopeWidths = 2.0F;     // a slope over this length counts half
 constexpr float kCutWidths = 3.0F;       // how far ahead an occluder is looked for
@@ -196,6 +198,22 @@ Bridge make_bridge(const Segment& segment, const Region& region, const Strands& 
   return {smoothed(segment.points_px, half), segment.node, least};
 }
 
+// True where the mask along the segment is too wide for one rope, between crossings.
+bool doubled(const Segment& segment, const Graph& graph, const Region& region,
+             const Strands& sizes) {
+  if (segment.ring() || segment.node[0] == segment.node[1]) return false;
+  if (segment.length_px > kDoubledLength * sizes.scale_px) return false;
+  for (const int node : segment.node) {
+    if (graph.nodes[node].ends.size() < 3) return false;
+  }
+  std::vector<float> widths;
+  const std::size_t margin = segment.points_px.size() / 5;
+  for (std::size_t i = margin; i + margin < segment.points_px.size(); ++i) {
+    widths.push_back(width_at(at(region.distance_px, segment.points_px[i])));
+  }
+  return !widths.empty() && median_of(widths) >= kDoubledWidths * sizes.width_px;
+}
+
 // The ends that meet at a node lie left and right of their middle.
 void find_forks(Strands& strands) {
   std::map<int, std::pair<Vector2f, int>> met;  // node to sum and count
@@ -228,6 +246,9 @@ Strands make_strands(const Graph& graph, const Region& region, const Frame& fram
       strands.bridges.push_back(make_bridge(segment, region, strands));
     } else {
       strands.list.push_back(make_strand(segment, graph, crossings, region, frame, strands));
+      if (!doubled(segment, graph, region, strands)) continue;
+      strands.list.back().doubled = true;
+      strands.bridges.push_back(make_bridge(segment, region, strands));
     }
   }
   find_forks(strands);

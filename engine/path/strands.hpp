@@ -30,11 +30,12 @@ struct StrandEnd {
 struct Strand {
   std::vector<Eigen::Vector2f> points_px;  ///< smoothed, from side 0 to side 1, crop coordinates
   std::array<StrandEnd, 2> ends;
-  float covers_px = 0;  ///< length that a path wins by using it
-  bool ring = false;    ///< closed: no tips, and nothing can be linked to it
+  float covers_px = 0;   ///< length that a path wins by using it
+  bool ring = false;     ///< closed: no tips, and nothing can be linked to it
+  bool doubled = false;  ///< between crossings and too wide for one rope: a second one lies on it
 };
 
-/// What lies inside crossings: bridges that two strands share.
+/// What two strands share: what lies inside crossings, and doubled strands once more.
 struct Bridge {
   std::vector<Eigen::Vector2f> points_px;
   std::array<int, 2> node{-1, -1};
