@@ -21,7 +21,9 @@ constexpr float kShapeBending = 1.0F;   // the curve drawn bends as little as it
 constexpr float kLinkBending = 0.2F;    // as a link it had better bend on as the ends do
 constexpr float kNearestWidths = 0.5F;  // ends nearer than this have no curve between them
 constexpr float kOpenCost = 8.0F;       // where the background shows, at most;
-constexpr float kOpenWidths = 4.0F;     // most of it for this many widths
+constexpr float kOpenWidths = 4.0F;     // most of it for this many widths;
+constexpr float kSlitCost = 2.0F;       // and however short, for tips show there
+constexpr float kSlitWidths = 0.3F;
 
 struct Cubic {
   Vector2f a, b;    // points
@@ -118,7 +120,8 @@ class Gap {
       const float rope_m = (1 - t) * from_.depth_m + t * to_.depth_m;
       if (!cover_.masked(p) && cover_.at(p, rope_m) == Sight::kOpen) open_px += steps[i];
     }
-    return kOpenCost * (1 - std::exp(-open_px / (kOpenWidths * scale_px_)));
+    return kOpenCost * (1 - std::exp(-open_px / (kOpenWidths * scale_px_))) +
+           kSlitCost * (1 - std::exp(-open_px / (kSlitWidths * scale_px_)));
   }
 
   const StrandEnd& from_;
