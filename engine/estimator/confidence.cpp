@@ -12,7 +12,8 @@ namespace {
 // In the order of `confidence_features`. Fitted on synthetic scenes by
 // `flowdlo_confidence fit 400 0`.
 constexpr std::array<double, kConfidenceFeatures> kConfidenceWeights{
-    4.388, 4.191, -3.277, -4.253, -3.672, -3.919, -1.511, -0.393, -3.332, -10.485, -2.780};
+    4.388, 4.191, -3.277, -4.253, -3.672, -3.919, -1.511, -0.393, -3.332, -10.485, -2.780, -1.0};
+constexpr double kRingConfidence = 0.2;  // no fit tells it: rings are rare, their ends unknown
 
 /// Root mean square distance of the finite draws to their mean, a node.
 std::array<float, kNodes> spread(const std::vector<Centerline>& draws) {
@@ -42,7 +43,7 @@ bool known(const Evidence& evidence) {
   const gate::TubeScore& tube = evidence.tube;
   return std::isfinite(tube.mask_recall + tube.mask_precision + tube.depth_agreement +
                        tube.crossing_agreement + tube.least_sine + tube.bending +
-                       tube.sharpest_bend + evidence.longest_gap);
+                       tube.sharpest_bend + evidence.longest_gap + evidence.hidden_ends);
 }
 
 }  // namespace
@@ -65,7 +66,8 @@ std::array<double, kConfidenceFeatures> confidence_features(const Evidence& evid
           missing(tube.least_sine, 1) * missing(tube.least_sine, 1),
           some(tube.bending, 5),
           some(tube.sharpest_bend, 1),
-          some(evidence.longest_gap, 15)};
+          some(evidence.longest_gap, 15),
+          static_cast<double>(evidence.hidden_ends)};
 }
 
 float confidence(const Evidence& evidence, double lead) {
@@ -73,7 +75,8 @@ float confidence(const Evidence& evidence, double lead) {
   const auto features = confidence_features(evidence, lead);
   double logit = 0;
   for (std::size_t i = 0; i < features.size(); ++i) logit += kConfidenceWeights[i] * features[i];
-  return static_cast<float>(1 / (1 + std::exp(-logit)));
+  const double share = 1 / (1 + std::exp(-logit));
+  return static_cast<float>(evidence.ring ? kRingConfidence * share : share);
 }
 
 std::array<float, kNodes> node_sigma(Source source, int draw, const flow::Prediction& prediction,

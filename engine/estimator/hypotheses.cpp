@@ -13,13 +13,20 @@ Result<std::vector<Hypothesis>> lift_all(const path::Traversals& paths,
                                          const evidence::Cloud& cloud,
                                          const evidence::VisiblePoints& visible, const Frame& frame,
                                          weights::PriorKind kind) {
-  gate::TubeView view(frame, paths.rope_width_px);
+  std::vector<std::pair<float, gate::TubeView>> views;  // by the rope's width
+  const auto view_of = [&](float width_px) -> gate::TubeView& {
+    for (auto& [width, view] : views) {
+      if (width == width_px) return view;
+    }
+    return views.emplace_back(width_px, gate::TubeView(frame, width_px)).second;
+  };
   std::vector<Hypothesis> hypotheses;
   double best = -std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < paths.ranked.size(); ++i) {
     const path::Path& path = paths.ranked[i];
     if (path.score < paths.ranked.front().score - kReach || path.score < best - kSlack) continue;
-    const auto refined = prior::refine(path, paths.rope_width_px, cloud, visible, frame);
+    const float width_px = path.width_px > 0 ? path.width_px : paths.rope_width_px;
+    const auto refined = prior::refine(path, width_px, cloud, visible, frame);
     auto lifted = kind == weights::PriorKind::kThesis
                       ? prior::lift(path, visible, frame)  // Eq. (3.1)-(3.7)
                       : refined;
@@ -27,7 +34,8 @@ Result<std::vector<Hypothesis>> lift_all(const path::Traversals& paths,
       if (hypotheses.empty()) return lifted.error();
       continue;
     }
-    const Evidence evidence = judge(path, paths.rope_width_px, refined ? &*refined : nullptr, view);
+    const Evidence evidence =
+        judge(path, width_px, refined ? &*refined : nullptr, view_of(width_px));
     hypotheses.push_back(
         {*std::move(lifted), i, path.score, rescored(path.score, evidence), evidence});
     best = std::max(best, hypotheses.back().score);

@@ -239,6 +239,10 @@ Path assemble(const Traversal& traversal, const Strands& strands, const Region& 
   drawn.points = smoothed(std::move(drawn.points), half);
   Path path = to_image(resampled(drawn), region, frame);
   path.score = -static_cast<double>(traversal.cost);
+  path.ring = strands.list[traversal.enters.front() / 2].ring;
+  for (const StrandEnd* end : {&first, &last}) {
+    path.hidden_ends += !end->tip() || end->cut ? 0.5F : 0;
+  }
   return path;
 }
 

@@ -4,8 +4,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <cstdio>
-#include <cstdlib>
 #include <opencv2/core.hpp>
 #include <vector>
 
@@ -19,32 +17,32 @@ using Eigen::Vector2f;
 using Points = std::vector<Vector2f>;
 
 constexpr float kScanStepPx = 0.25F;
-constexpr float kMostScan = 2.2F;      // usual widths to each side
-constexpr float kNearerMost = 2.5F;    // times nearer or farther than what is usual: else no rope
-constexpr float kRunWidths = 3.0F;     // a narrow part is at least this long,
-constexpr float kHalfLeast = 0.42F;    // between these shares of the usual width,
+constexpr float kMostScan = 2.2F;    // usual widths to each side
+constexpr float kNearerMost = 2.5F;  // times nearer or farther than what is usual: else no rope
+constexpr float kRunWidths = 3.0F;   // a narrow part is at least this long,
+constexpr float kHalfLeast = 0.42F;  // between these shares of the usual width,
 constexpr float kHalfMost = 0.72F;
-constexpr float kRunSpread = 1.25F;    // and even
-constexpr float kSingleShare = 1.3F;   // of the narrow parts' width: one strand up to this
-constexpr float kFewestNarrow = 0.04F; // share of the stations that are one strand
-constexpr float kDoubleLeast = 1.25F;  // widths: two strands from this
-constexpr float kDoubleMost = 2.7F;    // to this
-constexpr float kMeanLeast = 1.52F;    // in the mean
+constexpr float kRunSpread = 1.25F;     // and even
+constexpr float kSingleShare = 1.3F;    // of the narrow parts' width: one strand up to this
+constexpr float kFewestNarrow = 0.04F;  // share of the stations that are one strand
+constexpr float kDoubleLeast = 1.25F;   // widths: two strands from this
+constexpr float kDoubleMost = 2.7F;     // to this
+constexpr float kMeanLeast = 1.52F;     // in the mean
 constexpr float kMeanMost = 2.4F;
-constexpr float kShortest = 4.0F;      // widths; a flat crossing is shorter
-constexpr float kShortestPx = 20.0F;   // what frays leave on thin ropes is shorter too
-constexpr float kTrimWidths = 0.3F;    // what a round tip takes from the stretch
-constexpr float kTangentWidths = 3.0F; // what tells the direction at its end
-constexpr float kRunOutWidths = 2.5F;  // from there to where the strands part,
-constexpr float kCutOffWidths = 8.0F;  // or an occluder aslant hides both
-constexpr float kStepWidths = 2.0F;    // within this way two strands become one
-constexpr float kStepKept = 1.5F;      // and stay one for this long,
-constexpr float kSingleLeast = 0.75F;  // this wide at least
-constexpr float kSingleMost = 1.18F;   // and at most
-constexpr float kStepLeast = 0.1F;     // aside from the line the one lies at least this far
-constexpr float kTurnWidths = 1.0F;    // a strand that turns back takes this at the tip
-constexpr float kCornerDeep = 0.25F;   // so far before the edge a mask cut off
-constexpr float kCornerAside = 0.8F;   // reaches so far aside, a round one does not
+constexpr float kShortest = 4.0F;       // widths; a flat crossing is shorter
+constexpr float kShortestPx = 20.0F;    // what frays leave on thin ropes is shorter too
+constexpr float kTrimWidths = 0.3F;     // what a round tip takes from the stretch
+constexpr float kTangentWidths = 3.0F;  // what tells the direction at its end
+constexpr float kRunOutWidths = 2.5F;   // from there to where the strands part,
+constexpr float kCutOffWidths = 8.0F;   // or an occluder aslant hides both
+constexpr float kStepWidths = 2.0F;     // within this way two strands become one
+constexpr float kStepKept = 1.5F;       // and stay one for this long,
+constexpr float kSingleLeast = 0.75F;   // this wide at least
+constexpr float kSingleMost = 1.18F;    // and at most
+constexpr float kStepLeast = 0.1F;      // aside from the line the one lies at least this far
+constexpr float kTurnWidths = 1.0F;     // a strand that turns back takes this at the tip
+constexpr float kCornerDeep = 0.25F;    // so far before the edge a mask cut off
+constexpr float kCornerAside = 0.8F;    // reaches so far aside, a round one does not
 constexpr float kStandsSeamPx = 8.0F;
 constexpr float kLeastWidthPx = 1.5F;
 
@@ -53,7 +51,7 @@ struct Station {
   Vector2f middle_px{0, 0};  // of the mask
   Vector2f normal{0, 0};     // to its left
   float width_px = 0;
-  float nearer = 1;  // how many times larger things look than where the rope usually is
+  float nearer = 1;   // how many times larger things look than where the rope usually is
   float size_px = 0;  // the width there
   bool whole = true;  // no occluder hides a side
 
@@ -192,7 +190,8 @@ float single_size(const std::vector<Line>& lines, float usual_px) {
   for (const Line& line : lines) {
     all += line.size();
     for (const Station& station : line) {
-      if (station.whole && station.size_px <= kSingleShare * narrow) single.push_back(station.size_px);
+      if (station.whole && station.size_px <= kSingleShare * narrow)
+        single.push_back(station.size_px);
     }
   }
   if (static_cast<float>(single.size()) < kFewestNarrow * static_cast<float>(all)) return 0;
@@ -214,8 +213,8 @@ class Cutter {
       const auto length = static_cast<float>(last - first);
       const float mean = sum / length;
       const float width_px = size_px_ * line[(first + last) / 2].nearer;
-      if (length >= std::max(kShortest * width_px, kShortestPx) && mean > kMeanLeast && mean < kMeanMost) {
-    if(getenv("DBG"))printf("mean %.2f ",mean);
+      if (length >= std::max(kShortest * width_px, kShortestPx) && mean > kMeanLeast &&
+          mean < kMeanMost) {
         draw(segment, line, first, last - 1);
       }
       first = last;
@@ -247,7 +246,6 @@ class Cutter {
     const bool e1 = end_at(points, after, at_tip(segment, 1));
     std::reverse(points.begin(), points.end());
     const bool e2 = end_at(points, before, at_tip(segment, 0));
-    if(getenv("DBG"))printf("run %d..%d of %zu ends %d %d tips %d %d\n",first,last,line.size(),e2,e1,at_tip(segment,0),at_tip(segment,1));
     if (!e1 || !e2) return;
     // A whole piece of the mask as wide as this is one rope.
     if (at_tip(segment, 0) && at_tip(segment, 1) && !step(before, width_px) &&
@@ -266,14 +264,15 @@ class Cutter {
     const auto trim = static_cast<std::size_t>(kTrimWidths * width_px);
     if (points.size() < trim + 4) return false;
     points.resize(points.size() - trim);
-    const auto back = std::min(
-        points.size() - 1, static_cast<std::size_t>(std::max(4.0F, kTangentWidths * width_px)));
+    const auto back = std::min(points.size() - 1,
+                               static_cast<std::size_t>(std::max(4.0F, kTangentWidths * width_px)));
     const Vector2f along = points.back() - points[points.size() - 1 - back];
     if (along.norm() <= 0) return false;
     const Vector2f direction = along.normalized();
     const Vector2f from = points.back();
     if (const Station* station = step(after, width_px)) {
-      const float aside = cross(direction, station->middle_px - ahead(points, back, station->middle_px));
+      const float aside =
+          cross(direction, station->middle_px - ahead(points, back, station->middle_px));
       if (std::abs(aside) < kStepLeast * width_px) return false;
       const Vector2f left(-direction.y(), direction.x());
       const float side = (station->normal.dot(left) > 0) == (aside < 0) ? 1.0F : -1.0F;
@@ -347,8 +346,6 @@ Doubles find_doubles(const Graph& graph, const Region& region, const Frame& fram
   }
   calm(lines, Cover(region, frame, graph.width_px), graph.width_px);
   const float width_px = single_size(lines, graph.width_px);
-  if(getenv("DBG2"))for(auto&l:lines){for(size_t i=0;i<l.size();i+=std::max<size_t>(1,l.size()/60))printf("%.1f(%.1f,%.2f)%s ",l[i].size_px,l[i].width_px,l[i].nearer,l[i].whole?"":"h");printf("\n\n");}
-  if(getenv("DBG"))printf("single %.2f of %.2f\n",width_px,graph.width_px);
   if (width_px < kLeastWidthPx) return {};
   Cutter cutter(graph, region.mask, width_px);
   for (std::size_t i = 0; i < lines.size(); ++i) cutter.cut(graph.segments[i], lines[i]);

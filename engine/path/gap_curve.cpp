@@ -22,7 +22,9 @@ constexpr float kLinkBending = 0.2F;    // as a link it had better bend on as th
 constexpr float kNearestWidths = 0.5F;  // ends nearer than this have no curve between them
 constexpr float kOpenCost = 8.0F;       // where the background shows, at most;
 constexpr float kBelow_m = 0.03F;       // so does another strand this far below
-constexpr float kOpenWidths = 4.0F;     // most of it for this many widths
+constexpr float kOpenWidths = 4.0F;     // most of it for this many widths;
+constexpr float kSlitCost = 2.0F;       // and however short, for tips show there
+constexpr float kSlitWidths = 0.3F;
 
 struct Cubic {
   Vector2f a, b;    // points
@@ -121,7 +123,8 @@ class Gap {
                                          : cover_.at(p, rope_m) == Sight::kOpen;
       if (open) open_px += steps[i];
     }
-    return kOpenCost * (1 - std::exp(-open_px / (kOpenWidths * scale_px_)));
+    return kOpenCost * (1 - std::exp(-open_px / (kOpenWidths * scale_px_))) +
+           kSlitCost * (1 - std::exp(-open_px / (kSlitWidths * scale_px_)));
   }
 
   const StrandEnd& from_;

@@ -63,6 +63,9 @@ void Magnified::shrink(Traversals& traversals) const {
   for (Path& path : traversals.ranked) {
     Path small;
     small.score = path.score;
+    small.ring = path.ring;
+    small.hidden_ends = path.hidden_ends;
+    small.width_px = path.width_px / factor;
     for (std::size_t i = 0; i < path.points_px.size(); ++i) {
       const bool end = i == 0 || i + 1 == path.points_px.size();
       if (!end && i % static_cast<std::size_t>(times_) != 0) continue;

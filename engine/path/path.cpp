@@ -30,8 +30,10 @@ constexpr double kLengthTolerance = 0.08;
 constexpr double kMostTooLong = 60;
 constexpr double kMostTooShort = 8;  // depth may be missing where the rope goes on
 constexpr int kLengthCandidates = 12;
-constexpr float kThinDoublePx = 6.0F;  // strands thinner than this are cut apart magnified,
-constexpr int kMagnified = 2;          // by this
+constexpr float kThinDoublePx = 6.0F;    // strands thinner than this are cut apart magnified,
+constexpr int kMagnified = 2;            // by this
+constexpr double kLeftOut = 6;           // what it costs to leave one of two strands out
+constexpr double kMostWorseParted = 11;  // nor do cuts help that make all this much worse
 
 float skeleton_length(const Graph& graph) {
   float sum = 0;
@@ -120,6 +122,12 @@ std::vector<Path> ranked_paths(const Strands& strands, const Region& region, con
   return paths;
 }
 
+float margin_of(const std::vector<Path>& ranked) {
+  if (ranked.size() < 2) return 1;
+  const double lead = ranked[0].score - ranked[1].score;
+  return static_cast<float>(1 - std::exp(-std::max(0.0, lead) / kMarginCost));
+}
+
 Result<Traversals> trace_graph(Graph& graph, const Region& region, const Frame& frame,
                                const TraceConfig& asked) {
   split_at_hidden_forks(graph, Cover(region, frame, graph.width_px));
@@ -136,34 +144,58 @@ Result<Traversals> trace_graph(Graph& graph, const Region& region, const Frame& 
                      std::to_string(cv::countNonZero(region.mask)) +
                      " pixels; check the segmentation"};
   }
-  if (result.ranked.size() > 1) {
-    const double lead = result.ranked[0].score - result.ranked[1].score;
-    result.margin = static_cast<float>(1 - std::exp(-std::max(0.0, lead) / kMarginCost));
-  }
+  for (Path& path : result.ranked) path.width_px = strands.width_px;
+  result.margin = margin_of(result.ranked);
   const auto wanted = static_cast<std::size_t>(config.alternatives) + 1;
   if (result.ranked.size() > wanted) result.ranked.resize(wanted);
   return result;
 }
 
-// Strands that the mask shows as one twice as wide are cut apart; magnified, where they are too
-// thin for a cut a pixel wide.
+// The traversals of a mask whose doubles are cut apart; magnified, where the strands are too thin
+// for a cut a pixel wide.
+Result<Traversals> trace_parted(const Region& region, const Doubles& doubles, const Frame& frame,
+                                const TraceConfig& config) {
+  if (doubles.width_px >= kThinDoublePx) {
+    const Region parted = cut(region, doubles.lines);
+    Graph graph = make_graph(thin(parted.mask), parted);
+    return trace_graph(graph, parted, frame, config);
+  }
+  const Magnified magnified(frame, region, kMagnified);
+  const Region large = cut(magnified.region(), magnified.enlarged(doubles.lines));
+  Graph graph = make_graph(thin(large.mask), large);
+  auto result = trace_graph(graph, large, magnified.frame(), config);
+  if (result) magnified.shrink(*result);
+  return result;
+}
+
+// Both in one, best first. Those of the mask as it is leave out one of two strands where there are
+// two: they pay for it.
+Traversals merged(Traversals parted, const Traversals& whole, const TraceConfig& config) {
+  const double lead = parted.ranked.front().score - whole.ranked.front().score;
+  if (lead < -kMostWorseParted) return whole;
+  for (Path path : whole.ranked) {
+    path.score -= kLeftOut;
+    parted.ranked.push_back(std::move(path));
+  }
+  std::stable_sort(parted.ranked.begin(), parted.ranked.end(),
+                   [](const Path& a, const Path& b) { return a.score > b.score; });
+  const auto wanted = static_cast<std::size_t>(std::max(0, config.alternatives)) + 1;
+  if (parted.ranked.size() > wanted) parted.ranked.resize(wanted);
+  parted.margin = margin_of(parted.ranked);
+  parted.rope_width_px = parted.ranked.front().width_px;
+  return parted;
+}
+
 Result<Traversals> trace_region(const Frame& frame, const TraceConfig& config) {
   auto region = clean(frame);
   if (!region) return region.error();
   Graph graph = graph_of(*region);
   const Doubles doubles = find_doubles(graph, *region, frame);
-  if (doubles.lines.empty()) return trace_graph(graph, *region, frame, config);
-  if (doubles.width_px >= kThinDoublePx) {
-    *region = cut(*region, doubles.lines);
-    graph = make_graph(thin(region->mask), *region);
-    return trace_graph(graph, *region, frame, config);
-  }
-  const Magnified magnified(frame, *region, kMagnified);
-  const Region large = cut(magnified.region(), magnified.enlarged(doubles.lines));
-  graph = make_graph(thin(large.mask), large);
-  auto result = trace_graph(graph, large, magnified.frame(), config);
-  if (result) magnified.shrink(*result);
-  return result;
+  auto whole = trace_graph(graph, *region, frame, config);
+  if (doubles.lines.empty() || !whole) return whole;
+  auto parted = trace_parted(*region, doubles, frame, config);
+  if (!parted) return whole;
+  return merged(*std::move(parted), *whole, config);
 }
 
 }  // namespace

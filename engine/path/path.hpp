@@ -15,6 +15,9 @@ namespace flowdlo::path {
 struct Path {
   std::vector<Eigen::Vector2f> points_px;  ///< [M, 2] (u, v), consecutive ones distinct, M >= 2
   std::vector<std::uint8_t> bridged;       ///< [M] 1 where the sample lies on a link over a gap
+  bool ring = false;                       ///< closed: where it begins and ends is a guess
+  float hidden_ends = 0;                   ///< [0, 1] half for each end that does not show as a tip
+  float width_px = 0;                      ///< of the rope, as the mask was read for this one
   double score = 0;                        ///< higher is better; comparable within a frame
 };
 

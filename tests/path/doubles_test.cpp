@@ -1,0 +1,159 @@
+#include "path/doubles.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "canvas.hpp"
+#include "path/graph.hpp"
+#include "path/region.hpp"
+#include "path/thinning.hpp"
+
+namespace flowdlo::test {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+// A hairpin whose strands touch from x = 220 to x = 440; its bend, on the right, is open. One end
+// lies at x = 80. The other one stops beside it at x = 220, or parts from it to the upper left.
+Curve hairpin(int width_px, bool parts) {
+  const int upper = 240 - width_px / 2;
+  const int lower = upper + width_px;
+  const double radius = 4.0 * width_px;
+  Curve curve;
+  if (parts) {
+    for (int x = 80; x < 220; x += 4) {
+      curve.emplace_back(x, upper - (220 - x) * (220 - x) / 200);
+    }
+  }
+  curve.emplace_back(220, upper);
+  curve.emplace_back(440, upper);
+  const double middle = 0.5 * (upper + lower);
+  for (double t = 0; t <= 1; t += 0.02) {
+    const double open = 0.5 * width_px + (radius - 0.5 * width_px) * t * t * (3 - 2 * t);
+    curve.emplace_back(static_cast<int>(440 + 80 * t), static_cast<int>(middle - open));
+  }
+  for (double angle = -0.5 * kPi; angle <= 0.5 * kPi; angle += 0.05) {
+    curve.emplace_back(static_cast<int>(520 + radius * std::cos(angle)),
+                       static_cast<int>(middle + radius * std::sin(angle)));
+  }
+  for (double t = 1; t >= 0; t -= 0.02) {
+    const double open = 0.5 * width_px + (radius - 0.5 * width_px) * t * t * (3 - 2 * t);
+    curve.emplace_back(static_cast<int>(440 + 80 * t), static_cast<int>(middle + open));
+  }
+  curve.emplace_back(440, lower);
+  curve.emplace_back(80, lower);
+  return curve;
+}
+
+// `curve` with points about a pixel apart.
+Curve dense(const Curve& curve) {
+  Curve points;
+  for (std::size_t i = 1; i < curve.size(); ++i) {
+    const cv::Point step = curve[i] - curve[i - 1];
+    const int count = std::max({1, std::abs(step.x), std::abs(step.y)});
+    for (int k = 0; k < count; ++k) points.push_back(curve[i - 1] + step * k / count);
+  }
+  points.push_back(curve.back());
+  return points;
+}
+
+// A ring whose ends lie beside each other for `beside` radians.
+Curve overlapping_ring(int width_px, double beside) {
+  return curve_of([&](double t) {
+    const double angle = (2 * kPi + beside) * t;
+    const double radius = 130 + width_px * angle / (2 * kPi);
+    return std::pair{320 + radius * std::cos(angle), 240 + radius * std::sin(angle)};
+  });
+}
+
+Curve ring(double radius) {
+  return curve_of([radius](double t) {
+    return std::pair{320 + radius * std::cos(2 * kPi * t), 240 + radius * std::sin(2 * kPi * t)};
+  });
+}
+
+std::size_t doubles_in(const Canvas& canvas) {
+  const auto region = path::clean(canvas.frame());
+  const path::Graph graph = path::make_graph(path::thin(region->mask), *region);
+  return path::find_doubles(graph, *region, canvas.frame()).lines.size();
+}
+
+class Hairpin : public testing::TestWithParam<int> {};
+
+TEST_P(Hairpin, WhoseEndStopsBesideTheOtherStrandIsWalkedOnBoth) {
+  const int width_px = GetParam();
+  const Curve curve = hairpin(width_px, false);
+  const Canvas canvas = Canvas().stroke(curve, width_px);
+
+  const auto traced = path::trace(canvas.frame());
+
+  ASSERT_TRUE(traced);
+  ASSERT_TRUE(sound(traced->ranked.front(), canvas.frame()));
+  EXPECT_LT(frechet(traced->ranked.front(), dense(curve)), 2.0F + static_cast<float>(width_px));
+}
+
+TEST_P(Hairpin, WhoseEndsPartIsWalkedOnBoth) {
+  const int width_px = GetParam();
+  const Curve curve = hairpin(width_px, true);
+  const Canvas canvas = Canvas().stroke(curve, width_px);
+
+  const auto traced = path::trace(canvas.frame());
+
+  ASSERT_TRUE(traced);
+  EXPECT_LT(frechet(traced->ranked.front(), dense(curve)), 2.0F + static_cast<float>(width_px));
+}
+
+INSTANTIATE_TEST_SUITE_P(Widths, Hairpin, testing::Values(3, 5, 7, 11));
+
+TEST(Doubles, TellTheEndsOfARingThatOverlapsItself) {
+  const Curve curve = overlapping_ring(9, 0.8);
+  const Canvas canvas = Canvas().stroke(curve, 9);
+
+  const auto traced = path::trace(canvas.frame());
+
+  ASSERT_TRUE(traced);
+  EXPECT_FALSE(traced->ranked.front().ring);
+  EXPECT_LT(frechet(traced->ranked.front(), curve), 11.0F);
+}
+
+TEST(Doubles, AreNotFoundWhereARopeGrowsWiderTowardsTheCamera) {
+  Canvas canvas;
+  for (int x = 60; x < 580; ++x) {
+    canvas.stroke({{x, 240}, {x + 1, 240}}, 8 + x / 40);
+  }
+  EXPECT_EQ(doubles_in(canvas), 0U);
+}
+
+TEST(Doubles, AreNotFoundAtAFlatCrossing) {
+  const Canvas canvas =
+      Canvas().stroke({{60, 200}, {580, 280}}, 9).stroke({{60, 280}, {580, 200}}, 9);
+  EXPECT_EQ(doubles_in(canvas), 0U);
+}
+
+TEST(Ring, WithoutEndsIsSaidToBeOne) {
+  const auto traced = path::trace(Canvas().stroke(ring(120), 9).frame());
+  ASSERT_TRUE(traced);
+  EXPECT_TRUE(traced->ranked.front().ring);
+}
+
+TEST(Ring, IsCutOpenAtItsNotch) {
+  const Canvas canvas =
+      Canvas().stroke(ring(120), 15).erase({319, 106, 3, 10}).erase({319, 123, 3, 9});
+  const auto traced = path::trace(canvas.frame());
+  ASSERT_TRUE(traced);
+  const path::Path& path = traced->ranked.front();
+  EXPECT_TRUE(path.ring);
+  EXPECT_LT((path.points_px.front() - Vector2f(320, 120)).norm(), 8.0F);
+}
+
+TEST(HiddenEnds, AreNoneWhereBothTipsShow) {
+  const auto traced = path::trace(Canvas().stroke({{100, 240}, {540, 240}}, 9).frame());
+  ASSERT_TRUE(traced);
+  EXPECT_FALSE(traced->ranked.front().ring);
+  EXPECT_EQ(traced->ranked.front().hidden_ends, 0);
+}
+
+}  // namespace
+}  // namespace flowdlo::test
