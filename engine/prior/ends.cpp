@@ -193,12 +193,14 @@ class StripEnd {
   /// hangs before something farther: a gripper holds it.
   [[nodiscard]] bool covered(const Frame& frame, const Vector2f& out) const {
     std::vector<float> rope;
+    std::vector<float> inner;
     std::array<std::vector<float>, 2> heights;  // and farther in, clear of what covers the tip
     for (const Reading& reading : strip_.readings) {
       const Station& station = strip_.stations[static_cast<std::size_t>(reading.station)];
       const float in_px = std::abs(station.arclength_px - at(0).arclength_px);
       if (in_px < kWidthFrom * strip_.width_px) rope.push_back(reading.depth_m);
       const float in = in_px / strip_.width_px;
+      if (in < kWidthTo) inner.push_back(reading.depth_m);
       if (station.beside_m <= 0 || in > kInnerWidths) continue;
       heights[in < kWidthTo ? 0 : 1].push_back(station.beside_m - reading.depth_m);
     }
@@ -211,7 +213,8 @@ class StripEnd {
     }
     const bool hangs = height_m > kHangsWidths * width_m;
     const float covering_m =
-        hangs ? depth_m + kHeldWidths * width_m : depth_m - kNearerWidths * width_m;
+        hangs ? std::min(depth_m, median_of(inner)) + kHeldWidths * width_m  // tips fray
+              : depth_m - kNearerWidths * width_m;
     // A frayed mask ends before the rope does: what holds it goes on beyond the rest.
     const float from_px = hangs ? kFreePx + kEatenWidths * strip_.width_px : kFreePx;
     int nearer = 0;
