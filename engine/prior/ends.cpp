@@ -28,8 +28,9 @@ constexpr float kMostShare = 0.25F;        // of the strip that a cap may take
 constexpr float kFreePx = 2.5F;            // beyond a tip there is no mask
 constexpr float kNearerWidths = 2.0F;      // nearer than the rope: something before it
 constexpr float kInnerWidths = 15.0F;
+constexpr float kEatenWidths = 0.5F;
 constexpr float kHangsWidths = 5.0F;  // before what lies farther
-constexpr float kHeldShare = 0.4F;    // of the way there: not farther than what holds it
+constexpr float kHeldWidths = 0.5F;   // behind the rope, at most: what holds it
 constexpr float kEdgePx = 0.25F;      // how far both edges together lie beyond what was probed
 constexpr float kWidthFrom = 1.0F;    // widths from a tip between which the local width
 constexpr float kWidthTo = 3.0F;      // is measured
@@ -192,12 +193,14 @@ class StripEnd {
   /// hangs before something farther: a gripper holds it.
   [[nodiscard]] bool covered(const Frame& frame, const Vector2f& out) const {
     std::vector<float> rope;
+    std::vector<float> inner;
     std::array<std::vector<float>, 2> heights;  // and farther in, clear of what covers the tip
     for (const Reading& reading : strip_.readings) {
       const Station& station = strip_.stations[static_cast<std::size_t>(reading.station)];
       const float in_px = std::abs(station.arclength_px - at(0).arclength_px);
       if (in_px < kWidthFrom * strip_.width_px) rope.push_back(reading.depth_m);
       const float in = in_px / strip_.width_px;
+      if (in < kWidthTo) inner.push_back(reading.depth_m);
       if (station.beside_m <= 0 || in > kInnerWidths) continue;
       heights[in < kWidthTo ? 0 : 1].push_back(station.beside_m - reading.depth_m);
     }
@@ -210,11 +213,14 @@ class StripEnd {
     }
     const bool hangs = height_m > kHangsWidths * width_m;
     const float covering_m =
-        hangs ? depth_m + kHeldShare * height_m : depth_m - kNearerWidths * width_m;
+        hangs ? std::min(depth_m, median_of(inner)) + kHeldWidths * width_m  // tips fray
+              : depth_m - kNearerWidths * width_m;
+    // A frayed mask ends before the rope does: what holds it goes on beyond the rest.
+    const float from_px = hangs ? kFreePx + kEatenWidths * strip_.width_px : kFreePx;
     int nearer = 0;
-    for (const float step : {kFreePx, kFreePx + 1.5F, kFreePx + 3}) {
-      const Vector2f p = at(0).point_px + step * out;
-      if (!inside(frame, p)) continue;
+    for (const float step : {0.0F, 1.5F, 3.0F}) {
+      const Vector2f p = at(0).point_px + (from_px + step) * out;
+      if (!inside(frame, p) || (hangs && masked(frame, p))) continue;  // a strand holds nothing
       const float beyond_m = frame.depth_m[pixel(frame, p)];
       nearer += beyond_m > 1e-6F && beyond_m < covering_m ? 1 : 0;
     }

@@ -20,8 +20,9 @@ struct LiftConfig {
   float sigma_arc_px = 12.0F;    ///< Eq. (3.4)
 };
 
-/// sigma_m is not calibrated. Supported: the spread of the points behind the node together with
-/// 1 mm and one pixel's width. Others: a supported neighbour's, and half of the gap to it.
+/// sigma_m of `lift` is not calibrated; for that of `refine` see there. Supported: the spread of
+/// the points behind the node together with 1 mm and one pixel's width. Others: a supported
+/// neighbour's, and half of the gap to it.
 struct Prior {
   Centerline nodes{};                          ///< X_prior, canonical direction
   std::array<std::uint8_t, kNodes> support{};  ///< h_i, Eq. (3.6)
