@@ -12,7 +12,7 @@ namespace {
 // In the order of `confidence_features`. Fitted on synthetic scenes by
 // `flowdlo_confidence fit 400 0`.
 constexpr std::array<double, kConfidenceFeatures> kConfidenceWeights{
-    4.388, 4.191, -3.277, -4.253, -3.672, -3.919, -1.511, -0.393, -3.332, -10.485, -2.780, -1.0};
+    4.388, 4.191, -3.277, -4.253, -3.672, -3.919, -1.511, -0.393, -3.332, -10.485, -2.780, -1.0, 0, 0, 0};
 constexpr double kRingConfidence = 0.2;  // no fit tells it: rings are rare, their ends unknown
 
 /// Root mean square distance of the finite draws to their mean, a node.
@@ -67,7 +67,10 @@ std::array<double, kConfidenceFeatures> confidence_features(const Evidence& evid
           some(tube.bending, 5),
           some(tube.sharpest_bend, 1),
           some(evidence.longest_gap, 15),
-          static_cast<double>(evidence.hidden_ends)};
+          static_cast<double>(evidence.hidden_ends),
+          missing(evidence.supported, 0.5),
+          some(tube.overlap_share, 0.5),
+          some(tube.hidden_share, 0.3)};
 }
 
 float confidence(const Evidence& evidence, double lead) {

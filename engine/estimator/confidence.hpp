@@ -13,7 +13,7 @@ namespace flowdlo::estimator {
 
 /// [kConfidenceFeatures] what the probability is made from, each in [0, 1]: one, the margin, and
 /// then what speaks against the traversal.
-inline constexpr std::size_t kConfidenceFeatures = 12;
+inline constexpr std::size_t kConfidenceFeatures = 15;
 [[nodiscard]] std::array<double, kConfidenceFeatures> confidence_features(const Evidence& evidence,
                                                                           double lead);
 
