@@ -22,7 +22,7 @@ constexpr float kLinkBending = 0.2F;    // as a link it had better bend on as th
 constexpr float kNearestWidths = 0.5F;  // ends nearer than this have no curve between them
 constexpr float kOpenCost = 8.0F;       // where the background shows, at most;
 constexpr float kOpenWidths = 4.0F;     // most of it for this many widths;
-constexpr float kSlitCost = 2.0F;       // and however short, for tips show there
+constexpr float kSlitCost = 1.0F;       // and however short, for tips show there
 constexpr float kSlitWidths = 0.3F;
 
 struct Cubic {
