@@ -17,6 +17,7 @@ using Eigen::Vector2f;
 using Points = std::vector<Vector2f>;
 
 constexpr float kScanStepPx = 0.25F;
+constexpr int kCalmSamples = 4;
 constexpr float kMostScan = 2.2F;    // usual widths to each side
 constexpr float kNearerMost = 2.5F;  // times nearer or farther than what is usual: else no rope
 constexpr float kRunWidths = 3.0F;   // a narrow part is at least this long,
@@ -70,7 +71,9 @@ bool lit(const cv::Mat& mask, const Vector2f& p) {
 
 // How far the mask reaches from `p` along `direction`.
 float reach(const cv::Mat& mask, const Vector2f& p, const Vector2f& direction, float most_px) {
-  float walked = kScanStepPx;
+  float walked = 1;
+  while (walked < most_px && lit(mask, p + walked * direction)) walked += 1;
+  walked -= 1 - kScanStepPx;
   while (walked < most_px && lit(mask, p + walked * direction)) walked += kScanStepPx;
   return walked - 0.5F * kScanStepPx;
 }
@@ -102,14 +105,15 @@ float quantile(std::vector<float> values, float share) {
   return values[static_cast<std::size_t>(at)];
 }
 
-// Running medians over 2 `half` + 1 values; zeros do not count.
+// Running medians over 2 `half` + 1 values or a sample of them; zeros do not count.
 std::vector<float> calmed(const std::vector<float>& values, int half) {
   std::vector<float> result;
   std::vector<float> window;
   const int count = static_cast<int>(values.size());
+  const int step = std::max(1, half / kCalmSamples);
   for (int i = 0; i < count; ++i) {
     window.clear();
-    for (int k = std::max(0, i - half); k <= std::min(count - 1, i + half); ++k) {
+    for (int k = std::max(0, i - half); k <= std::min(count - 1, i + half); k += step) {
       if (values[k] > 0) window.push_back(values[k]);
     }
     result.push_back(window.empty() ? 0 : quantile(window, 0.5F));
@@ -128,6 +132,7 @@ bool hidden(const Station& station, const Cover& cover, float depth_m, float wid
 // Frays and single pixels leave the widths, noise and holes the depths.
 void calm(std::vector<Line>& lines, const Cover& cover, float width_px) {
   const int half = std::max(2, static_cast<int>(0.75F * width_px));
+  const int step = std::max(1, half / kCalmSamples);
   std::vector<std::vector<float>> depths;
   std::vector<float> all;
   for (Line& line : lines) {
@@ -155,7 +160,9 @@ void calm(std::vector<Line>& lines, const Cover& cover, float width_px) {
         station.nearer = std::clamp(usual_m / before, 1 / kNearerMost, kNearerMost);
       }
       station.size_px = station.width_px / station.nearer;
-      station.whole = !hidden(station, cover, before, width_px);
+      station.whole = i % static_cast<std::size_t>(step) == 0
+                          ? !hidden(station, cover, before, width_px)
+                          : lines[l][i - 1].whole;
     }
   }
 }

@@ -23,7 +23,7 @@ constexpr float kNearestWidths = 0.5F;  // ends nearer than this have no curve b
 constexpr float kOpenCost = 8.0F;       // where the background shows, at most;
 constexpr float kBelow_m = 0.03F;       // so does another strand this far below
 constexpr float kOpenWidths = 4.0F;     // most of it for this many widths;
-constexpr float kSlitCost = 2.0F;       // and however short, for tips show there
+constexpr float kSlitCost = 1.0F;       // and however short, for tips show there
 constexpr float kSlitWidths = 0.3F;
 
 struct Cubic {
