@@ -10,9 +10,10 @@ namespace flowdlo::estimator {
 namespace {
 
 // In the order of `confidence_features`. Fitted on synthetic scenes by
-// `flowdlo_confidence fit 400 0`.
+// `flowdlo_confidence fit --scenes 130 --wide 1400`.
 constexpr std::array<double, kConfidenceFeatures> kConfidenceWeights{
-    4.388, 4.191, -3.277, -4.253, -3.672, -3.919, -1.511, -0.393, -3.332, -10.485, -2.780, -1.0, 0, 0, 0};
+    0.298, 1.624,  -2.891, 0.000,  -2.500, -1.680, -1.135, 0.000,
+    0.000, -2.176, -0.913, -2.168, -2.128, -0.641, 0.000};
 constexpr double kRingConfidence = 0.2;  // no fit tells it: rings are rare, their ends unknown
 
 /// Root mean square distance of the finite draws to their mean, a node.

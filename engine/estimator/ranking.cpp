@@ -10,8 +10,8 @@ namespace {
 
 constexpr double kMarginScore = 3.0;  // the lead that leaves a third of the doubt
 // In the order of `penalties`, in units of path score. Fitted on synthetic scenes by
-// `flowdlo_confidence fit 400 0`.
-constexpr std::array<double, kPenalties> kPenaltyWeights{11.64, 11.51, 5.03, 8.02, 4.74, 0.90};
+// `flowdlo_confidence fit --scenes 130 --wide 1400`; sharp bends speak against none there.
+constexpr std::array<double, kPenalties> kPenaltyWeights{11.94, 1.88, 6.52, 5.65, 7.34, 0.0};
 
 void measure_path(const path::Path& path, float rope_width_px, Evidence& evidence) {
   const float width_px = std::max(1.0F, rope_width_px);
