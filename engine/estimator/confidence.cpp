@@ -12,8 +12,8 @@ namespace {
 // In the order of `confidence_features`. Fitted on synthetic scenes by
 // `flowdlo_confidence fit --scenes 130 --wide 1400`.
 constexpr std::array<double, kConfidenceFeatures> kConfidenceWeights{
-    0.298, 1.624,  -2.891, 0.000,  -2.500, -1.680, -1.135, 0.000,
-    0.000, -2.176, -0.913, -2.168, -2.128, -0.641, 0.000};
+    1.151, 1.934,  -3.017, 0.000,  -2.064, -0.880, -1.710, 0.000,
+    0.000, -3.180, -0.928, -1.449, -1.870, -1.609, 0.000};
 constexpr double kRingConfidence = 0.2;  // no fit tells it: rings are rare, their ends unknown
 
 /// Root mean square distance of the finite draws to their mean, a node.

@@ -19,7 +19,7 @@ inline constexpr std::size_t kConfidenceFeatures = 15;
 
 /// In [0, 1]: the probability that the best traversal visits the rope in order and leaves no loop
 /// out, whichever end comes first, when `lead` separates it from the next. Errs towards doubt:
-/// wrong ones counted fourteenfold when it was fitted. Low for a closed ring, whose ends are a guess.
+/// wrong ones counted sixfold when it was fitted. Low for a closed ring, whose ends are a guess.
 /// 0 when anything is not finite.
 [[nodiscard]] float confidence(const Evidence& evidence, double lead);
 

@@ -19,7 +19,7 @@ using Eigen::Vector2f;
 constexpr float kTipWidths = 6;
 constexpr float kTipShare = 0.08F;  // and no more than that of the path
 #ifdef FLOWDLO_WITH_SYNTH
-constexpr double kMostErrorShare = 0.02;  // of the rope's length
+constexpr double kMostErrorShare = 0.05;  // of the rope's length
 #endif
 
 using Points = std::vector<Vector2f>;

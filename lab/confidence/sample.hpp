@@ -35,7 +35,7 @@ struct Sample {
 
 #ifdef FLOWDLO_WITH_SYNTH
 /// The same of a synthetic frame. There a candidate is right when no node is astray along the rope
-/// and the index error, either way round, stays below a fiftieth of the length.
+/// and the index error, either way round, stays below a twentieth of the length.
 [[nodiscard]] std::optional<Sample> measure(const synth::SyntheticFrame& scene);
 #endif
 
