@@ -10,10 +10,10 @@ namespace flowdlo::estimator {
 namespace {
 
 // In the order of `confidence_features`. Fitted on synthetic scenes by
-// `flowdlo_confidence fit --scenes 130 --wide 1400`.
+// `flowdlo_confidence fit --scenes 150 --wide 1000`.
 constexpr std::array<double, kConfidenceFeatures> kConfidenceWeights{
-    1.151, 1.934,  -3.017, 0.000,  -2.064, -0.880, -1.710, 0.000,
-    0.000, -3.180, -0.928, -1.449, -1.870, -1.609, 0.000};
+    2.010, 1.491,  -3.296, 0.000,  -2.255, -0.687, -2.525, -0.156,
+    0.000, -4.301, -1.436, -1.144, -4.363, -2.346, -2.539, 0.000};
 constexpr double kRingConfidence = 0.2;  // no fit tells it: rings are rare, their ends unknown
 
 /// Root mean square distance of the finite draws to their mean, a node.
@@ -44,7 +44,8 @@ bool known(const Evidence& evidence) {
   const gate::TubeScore& tube = evidence.tube;
   return std::isfinite(tube.mask_recall + tube.mask_precision + tube.depth_agreement +
                        tube.crossing_agreement + tube.least_sine + tube.bending +
-                       tube.sharpest_bend + evidence.longest_gap + evidence.hidden_ends);
+                       tube.sharpest_bend + evidence.longest_gap + evidence.hidden_ends +
+                       evidence.buried_ends);
 }
 
 }  // namespace
@@ -69,6 +70,7 @@ std::array<double, kConfidenceFeatures> confidence_features(const Evidence& evid
           some(tube.sharpest_bend, 1),
           some(evidence.longest_gap, 15),
           static_cast<double>(evidence.hidden_ends),
+          static_cast<double>(evidence.buried_ends),
           missing(evidence.supported, 0.5),
           some(tube.overlap_share, 0.5),
           some(tube.hidden_share, 0.3)};

@@ -13,13 +13,13 @@ namespace flowdlo::estimator {
 
 /// [kConfidenceFeatures] what the probability is made from, each in [0, 1]: one, the margin, and
 /// then what speaks against the traversal.
-inline constexpr std::size_t kConfidenceFeatures = 15;
+inline constexpr std::size_t kConfidenceFeatures = 16;
 [[nodiscard]] std::array<double, kConfidenceFeatures> confidence_features(const Evidence& evidence,
                                                                           double lead);
 
 /// In [0, 1]: the probability that the best traversal visits the rope in order and leaves no loop
 /// out, whichever end comes first, when `lead` separates it from the next. Errs towards doubt:
-/// wrong ones counted sixfold when it was fitted. Low for a closed ring, whose ends are a guess.
+/// wrong ones counted eightfold when it was fitted. Low for a closed ring, whose ends are a guess.
 /// 0 when anything is not finite.
 [[nodiscard]] float confidence(const Evidence& evidence, double lead);
 

@@ -39,6 +39,7 @@ Evidence judge(const path::Path& path, float rope_width_px, const prior::Prior* 
   Evidence evidence;
   measure_path(path, rope_width_px, evidence);
   evidence.hidden_ends = path.hidden_ends;
+  evidence.buried_ends = path.buried_ends;
   evidence.ring = path.ring;
   if (refined == nullptr) return evidence;
   evidence.tube = view.score(refined->nodes, view.radius_m(refined->nodes));

@@ -16,7 +16,8 @@ struct Evidence {
   float supported = 0;      ///< [0, 1] share of its nodes with support
   float bridged = 0;        ///< [0, 1] share of the path on links over gaps
   float longest_gap = 0;    ///< [0, 99] in rope widths
-  float hidden_ends = 0;    ///< [0, 1] half for each end that does not show as a tip
+  float hidden_ends = 0;    ///< [0, 1] half for each tip where an occluder begins
+  float buried_ends = 0;    ///< [0, 1] half for each end on another strand
   bool ring = false;        ///< closed: its ends are a guess
   float length_widths = 0;  ///< [0, 999] of the path, in rope widths
 };

@@ -241,7 +241,8 @@ Path assemble(const Traversal& traversal, const Strands& strands, const Region& 
   path.score = -static_cast<double>(traversal.cost);
   path.ring = strands.list[traversal.enters.front() / 2].ring;
   for (const StrandEnd* end : {&first, &last}) {
-    path.hidden_ends += !end->tip() || end->cut ? 0.5F : 0;
+    path.hidden_ends += end->tip() && end->cut ? 0.5F : 0;
+    path.buried_ends += end->tip() ? 0 : 0.5F;
   }
   return path;
 }

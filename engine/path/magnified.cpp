@@ -65,6 +65,7 @@ void Magnified::shrink(Traversals& traversals) const {
     small.score = path.score;
     small.ring = path.ring;
     small.hidden_ends = path.hidden_ends;
+    small.buried_ends = path.buried_ends;
     small.width_px = path.width_px / factor;
     for (std::size_t i = 0; i < path.points_px.size(); ++i) {
       const bool end = i == 0 || i + 1 == path.points_px.size();

@@ -16,7 +16,8 @@ struct Path {
   std::vector<Eigen::Vector2f> points_px;  ///< [M, 2] (u, v), consecutive ones distinct, M >= 2
   std::vector<std::uint8_t> bridged;       ///< [M] 1 where the sample lies on a link over a gap
   bool ring = false;                       ///< closed: where it begins and ends is a guess
-  float hidden_ends = 0;                   ///< [0, 1] half for each end that does not show as a tip
+  float hidden_ends = 0;                   ///< [0, 1] half for each tip where an occluder begins
+  float buried_ends = 0;                   ///< [0, 1] half for each end on another strand
   float width_px = 0;                      ///< of the rope, as the mask was read for this one
   double score = 0;                        ///< higher is better; comparable within a frame
 };

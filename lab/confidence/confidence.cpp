@@ -26,7 +26,7 @@ namespace estimator = flowdlo::estimator;
 constexpr double kRankingRidge = 0.05;
 constexpr double kConfidenceRidge = 0.3;
 // Wrong winners are rare here; frames that do not come from this maker hold more of them.
-constexpr double kWrongWeight = 6;
+constexpr double kWrongWeight = 8;
 constexpr std::ptrdiff_t kFirstAgainst = 2;  // features: one, the margin, then what is against it
 constexpr std::size_t kBins = 10;
 

@@ -51,7 +51,7 @@ TEST(Confidence, FallsWithEachThingThatSpeaksAgainstTheTraversal) {
   start.tube.mask_recall = 0.97F;  // where the curve is steep
   start.tube.mask_precision = 0.97F;
   const float before = confidence(start, 3);
-  std::vector<Evidence> worse(9, start);
+  std::vector<Evidence> worse(10, start);
   worse[0].tube.mask_recall = 0.9F;
   worse[1].tube.mask_precision = 0.9F;
   worse[2].tube.depth_agreement = 0.9F;
@@ -61,6 +61,7 @@ TEST(Confidence, FallsWithEachThingThatSpeaksAgainstTheTraversal) {
   worse[6].tube.sharpest_bend = 0.6F;
   worse[7].longest_gap = 8;
   worse[8].hidden_ends = 1;
+  worse[9].buried_ends = 1;
   for (std::size_t i = 0; i < worse.size(); ++i) EXPECT_LT(confidence(worse[i], 3), before) << i;
   EXPECT_LT(confidence(start, 0), before);
 }
