@@ -53,7 +53,7 @@ void add_scores(const Estimate& estimate, const Tensors& tensors, const Centerli
                 Trial& trial) {
   const Score returned = score(estimate.nodes, truth);
   trial.methods["estimate"] = mean_of({returned});
-  trial.truth = returned.flipped ? reversed(canonical(truth)) : canonical(truth);
+  trial.truth = turned(truth, returned);
   trial.sigma = coverage_of(estimate, trial.truth);
   std::vector<Score> draws;
   Score best = score(centerline(tensors.prior), truth);

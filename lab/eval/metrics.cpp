@@ -86,4 +86,8 @@ Score score(const Centerline& nodes, const Centerline& truth) {
   return score;
 }
 
+Centerline turned(const Centerline& truth, const Score& score) {
+  return score.flipped ? reversed(canonical(truth)) : canonical(truth);
+}
+
 }  // namespace flowdlo::eval

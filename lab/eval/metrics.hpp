@@ -33,4 +33,7 @@ struct Score {
 /// `truth` may run either way; `nodes` count as published.
 [[nodiscard]] Score score(const Centerline& nodes, const Centerline& truth);
 
+/// `truth` in the direction in which the nodes of that score compare best with it.
+[[nodiscard]] Centerline turned(const Centerline& truth, const Score& score);
+
 }  // namespace flowdlo::eval

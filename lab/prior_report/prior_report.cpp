@@ -12,6 +12,7 @@
 #include <string_view>
 #include <vector>
 
+#include "eval/metrics.hpp"
 #include "evidence/visible_points.hpp"
 #include "geometry/camera.hpp"
 #include "path/path.hpp"
@@ -39,24 +40,14 @@ struct Error {
   bool flipped = false;
 };
 
-double index_error_cm(const Centerline& nodes, const Centerline& truth) {
-  double sum = 0;
-  for (std::size_t i = 0; i < kNodes; ++i) {
-    sum += (flowdlo::geometry::to_eigen(nodes[i]) - flowdlo::geometry::to_eigen(truth[i])).norm();
-  }
-  return 100 * sum / kNodes;  // Eq. (4.1)
-}
-
 // The truth turned to the direction of `nodes`.
 Centerline turned(const Centerline& truth, const Centerline& nodes) {
-  Centerline back = truth;
-  std::reverse(back.begin(), back.end());
-  return index_error_cm(nodes, back) < index_error_cm(nodes, truth) ? back : truth;
+  return flowdlo::eval::turned(truth, flowdlo::eval::score(nodes, truth));
 }
 
 Error error_of(const Centerline& nodes, const Centerline& truth) {
-  const Centerline target = turned(truth, nodes);
-  return {index_error_cm(nodes, target), !flowdlo::prior::is_canonical(target)};
+  const flowdlo::eval::Score score = flowdlo::eval::score(nodes, truth);
+  return {100 * score.either_index_m, score.flipped};
 }
 
 // Signed offsets from the truth of the estimate's ends, outwards; and mean distances: along the

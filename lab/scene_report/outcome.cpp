@@ -5,31 +5,13 @@
 
 #include "estimator/confidence.hpp"
 #include "estimator/hypotheses.hpp"
+#include "eval/metrics.hpp"
 #include "evidence/visible_points.hpp"
-#include "geometry/camera.hpp"
 #include "path/path.hpp"
 #include "prior_report/traversal.hpp"
 
 namespace flowdlo::lab {
 namespace {
-
-double index_error_cm(const Centerline& nodes, const Centerline& truth) {
-  double sum = 0;
-  for (std::size_t i = 0; i < kNodes; ++i) {
-    sum += (geometry::to_eigen(nodes[i]) - geometry::to_eigen(truth[i])).norm();
-  }
-  return 100 * sum / kNodes;  // Eq. (4.1)
-}
-
-Centerline reversed(Centerline nodes) {
-  std::reverse(nodes.begin(), nodes.end());
-  return nodes;
-}
-
-Centerline turned(const Centerline& truth, const Centerline& nodes) {
-  const Centerline back = reversed(truth);
-  return index_error_cm(nodes, back) < index_error_cm(nodes, truth) ? back : truth;
-}
 
 template <class Work>
 auto timed(double& ms, const Work& work) {
@@ -65,11 +47,12 @@ Outcome outcome_of(const Scene& scene, std::uint64_t seed) {
         return follows_rope(traced->ranked[other.path], scene);
       });
   outcome.prior = best.prior;
-  outcome.truth = turned(scene.truth, best.prior.nodes);
-  outcome.flipped = !prior::is_canonical(outcome.truth);
-  outcome.index_cm = index_error_cm(best.prior.nodes, outcome.truth);
+  const eval::Score score = eval::score(best.prior.nodes, scene.truth);
+  outcome.truth = eval::turned(scene.truth, score);
+  outcome.flipped = score.flipped;
+  outcome.index_cm = 100 * score.either_index_m;
   if (const auto thesis = prior::lift(path, visible, frame)) {
-    outcome.thesis_cm = index_error_cm(thesis->nodes, turned(scene.truth, thesis->nodes));
+    outcome.thesis_cm = 100 * eval::score(thesis->nodes, scene.truth).either_index_m;
   }
   outcome.confidence = estimator::confidence(best.evidence, estimator::lead(*lifted));
   return outcome;

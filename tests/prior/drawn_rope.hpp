@@ -1,6 +1,8 @@
 // A rope drawn from its true centerline, with the path that a perfect tracer would give.
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -88,6 +90,23 @@ inline double distance_to(const lab::Curve3& curve, const Point3& point) {
     least = std::min(least, (p - curve[i - 1] - t * d).norm());
   }
   return least;
+}
+
+/// The rope's refined prior; a failure of the test where there is none.
+inline Prior refined(const DrawnRope& rope) {
+  const Result<Prior> prior = rope.refined();
+  EXPECT_TRUE(prior.has_value()) << prior.error().message;
+  return prior ? *prior : Prior{};
+}
+
+/// Metres from the curve, of all nodes but the outermost ones: how far the ends reach has tests of
+/// its own.
+inline double farthest(const Prior& prior, const lab::Curve3& curve) {
+  double most = 0;
+  for (std::size_t i = 1; i + 1 < prior.nodes.size(); ++i) {
+    most = std::max(most, distance_to(curve, prior.nodes[i]));
+  }
+  return most;
 }
 
 }  // namespace flowdlo::prior::testing

@@ -17,23 +17,10 @@ using testing::crossing_line;
 using testing::distance_to;
 using testing::draw_rope;
 using testing::DrawnRope;
+using testing::farthest;
 using testing::kRadius_m;
+using testing::refined;
 using testing::straight_line;
-
-Prior refined(const DrawnRope& rope) {
-  const Result<Prior> prior = rope.refined();
-  EXPECT_TRUE(prior.has_value()) << prior.error().message;
-  return prior ? *prior : Prior{};
-}
-
-/// Of all nodes but the outermost ones: how far the ends reach has tests of its own.
-double farthest(const Prior& prior, const lab::Curve3& curve) {
-  double most = 0;
-  for (std::size_t i = 1; i + 1 < prior.nodes.size(); ++i) {
-    most = std::max(most, distance_to(curve, prior.nodes[i]));
-  }
-  return most;
-}
 
 TEST(Refine, WorksOnAPathOfTwoPoints) {
   DrawnRope rope = draw_rope(straight_line());
