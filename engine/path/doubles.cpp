@@ -28,7 +28,8 @@ constexpr float kSingleShare = 1.3F;    // of the narrow parts' width: one stran
 constexpr float kFewestNarrow = 0.04F;  // share of the stations that are one strand
 constexpr float kDoubleLeast = 1.25F;   // widths: two strands from this
 constexpr float kDoubleMost = 2.7F;     // to this
-constexpr float kMeanLeast = 1.52F;     // in the mean
+constexpr float kMeanLeast = 1.52F;     // in the mean;
+constexpr float kAslantLeast = 1.33F;   // seen aslant, one partly hides the other: between forks
 constexpr float kMeanMost = 2.4F;
 constexpr float kShortest = 4.0F;       // widths; a flat crossing is shorter
 constexpr float kShortestPx = 20.0F;    // what frays leave on thin ropes is shorter too
@@ -220,8 +221,8 @@ class Cutter {
       const auto length = static_cast<float>(last - first);
       const float mean = sum / length;
       const float width_px = size_px_ * line[(first + last) / 2].nearer;
-      if (length >= std::max(kShortest * width_px, kShortestPx) && mean > kMeanLeast &&
-          mean < kMeanMost) {
+      if (length >= std::max(kShortest * width_px, kShortestPx) && mean < kMeanMost &&
+          mean > (anchored(segment, line, first, last - 1) ? kAslantLeast : kMeanLeast)) {
         draw(segment, line, first, last - 1);
       }
       first = last;
@@ -240,6 +241,19 @@ class Cutter {
   }
   [[nodiscard]] bool at_tip(const Segment& segment, int side) const {
     return !segment.ring() && graph_.nodes[segment.node[side]].ends.size() == 1;
+  }
+
+  // Whether both ends of a stretch show where a second strand comes or goes: a fork, or a step.
+  [[nodiscard]] bool anchored(const Segment& segment, const Line& line, int first, int last) const {
+    const float width_px = size_px_ * line[(first + last) / 2].nearer;
+    const Line after(line.begin() + last + 1, line.end());
+    Line before(line.begin(), line.begin() + first);
+    std::reverse(before.begin(), before.end());
+    return (forks(segment, 0) || step(before, width_px) != nullptr) &&
+           (forks(segment, 1) || step(after, width_px) != nullptr);
+  }
+  [[nodiscard]] bool forks(const Segment& segment, int side) const {
+    return !segment.ring() && graph_.nodes[segment.node[side]].ends.size() > 2;
   }
 
   void draw(const Segment& segment, const Line& line, int first, int last) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace flowdlo::prior {
@@ -17,8 +18,9 @@ constexpr float kNearShare = 0.35F;        // quantile of a block's depths: pixe
 constexpr float kSteepest = 2.7F;          // metres of depth a metre aside
 constexpr float kJumpWidths = 2.0F;
 constexpr float kJumpShare = 0.01F;      // of the depth: noise
+constexpr float kHoleWidths = 6.0F;      // without readings
 constexpr float kSunkShare = 0.35F;      // of the neighbour's height over the background, at most
-constexpr std::size_t kLeastBlocks = 3;  // of a stretch in mid-air
+constexpr std::size_t kLeastBlocks = 6;  // of a stretch in mid-air
 constexpr float kHighWidths = 10.0F;     // over the background: in mid-air
 constexpr float kLeastHanging = 0.25F;   // of all blocks; less is something before the rope
 
@@ -29,10 +31,11 @@ struct Block {
   float aside = 0;
 };
 
-/// Blocks that no jump parts.
+/// Blocks that neither a jump nor a hole parts.
 struct Run {
   std::size_t first = 0;
   std::size_t last = 0;
+  bool jump = false;   // from the run before: too far for the rope between
   bool hangs = false;  // high over the background
   bool sunk = false;
 };
@@ -74,19 +77,22 @@ float reach_m(const Block& a, const Block& b, float width_px) {
 }
 
 std::vector<Run> runs_of(const std::vector<Block>& blocks, float width_px) {
-  std::vector<Run> runs;
-  for (std::size_t i = 0; i < blocks.size(); ++i) {
-    const bool on = i > 0 && std::abs(blocks[i].depth_m - blocks[i - 1].depth_m) <=
-                                 reach_m(blocks[i], blocks[i - 1], width_px);
-    if (!on) runs.push_back({i, i});
+  std::vector<Run> runs{{0, 0}};
+  for (std::size_t i = 1; i < blocks.size(); ++i) {
+    const Block& before = blocks[i - 1];
+    const bool jump =
+        std::abs(blocks[i].depth_m - before.depth_m) > reach_m(blocks[i], before, width_px);
+    const bool hole = blocks[i].arclength_px - before.arclength_px > kHoleWidths * width_px;
+    if (jump || hole) runs.push_back({i, i, jump});
     runs.back().last = i;
   }
   return runs;
 }
 
 /// Median height of a run's blocks over the background, as a share of that of `near_m`, or in
-/// widths where that is 0. Below 0 without any background.
-float height(const std::vector<Block>& blocks, const Run& run, float near_m, float width_px) {
+/// widths where that is 0. Nothing without any background.
+std::optional<float> height(const std::vector<Block>& blocks, const Run& run, float near_m,
+                            float width_px) {
   std::vector<float> heights;
   for (std::size_t i = run.first; i <= run.last; ++i) {
     const Block& block = blocks[i];
@@ -95,7 +101,8 @@ float height(const std::vector<Block>& blocks, const Run& run, float near_m, flo
         near_m > 0 ? block.beside_m - near_m : width_px * block.aside * block.depth_m;
     heights.push_back((block.beside_m - block.depth_m) / unit);
   }
-  return heights.empty() ? -1 : quantile(heights, 0.5F);
+  if (heights.empty()) return std::nullopt;
+  return quantile(heights, 0.5F);
 }
 
 std::size_t size(const Run& run) { return run.last - run.first + 1; }
@@ -104,7 +111,8 @@ std::size_t size(const Run& run) { return run.last - run.first + 1; }
 void mark_sunk(const std::vector<Block>& blocks, float width_px, std::vector<Run>& runs) {
   std::size_t hanging = 0;
   for (Run& run : runs) {
-    run.hangs = size(run) >= kLeastBlocks && height(blocks, run, 0, width_px) > kHighWidths;
+    run.hangs =
+        size(run) >= kLeastBlocks && height(blocks, run, 0, width_px).value_or(0) > kHighWidths;
     if (run.hangs) hanging += size(run);
   }
   if (static_cast<float>(hanging) < kLeastHanging * static_cast<float>(blocks.size())) return;
@@ -117,11 +125,13 @@ void mark_sunk(const std::vector<Block>& blocks, float width_px, std::vector<Run
       nearer = nearer || !behind;
       if (behind) near_m = std::max(near_m, blocks[there].depth_m);
     };
-    if (r > 0) compare(runs[r - 1], runs[r - 1].last, runs[r].first);
-    if (r + 1 < runs.size()) compare(runs[r + 1], runs[r + 1].first, runs[r].last);
+    if (runs[r].jump) compare(runs[r - 1], runs[r - 1].last, runs[r].first);
+    if (r + 1 < runs.size() && runs[r + 1].jump) {
+      compare(runs[r + 1], runs[r + 1].first, runs[r].last);
+    }
     if (near_m <= 0 || nearer) continue;
-    const float share = height(blocks, runs[r], near_m, width_px);
-    runs[r].sunk = share >= 0 && share <= kSunkShare;
+    const auto share = height(blocks, runs[r], near_m, width_px);
+    runs[r].sunk = share && *share <= kSunkShare;
   }
 }
 
@@ -132,6 +142,7 @@ void drop_sunken(Strip& strip) {
   const int length = std::max(
       1, static_cast<int>(std::max(kBlockWidths * strip.width_px, kLeastBlockPx) / step_px));
   const std::vector<Block> blocks = blocks_of(strip, length);
+  if (blocks.empty()) return;
   std::vector<Run> runs = runs_of(blocks, strip.width_px);
   if (runs.size() < 2) return;
   mark_sunk(blocks, strip.width_px, runs);
