@@ -53,9 +53,10 @@ struct Station {
   Vector2f middle_px{0, 0};  // of the mask
   Vector2f normal{0, 0};     // to its left
   float width_px = 0;
-  float nearer = 1;   // how many times larger things look than where the rope usually is
-  float size_px = 0;  // the width there
-  bool whole = true;  // no occluder hides a side
+  float nearer = 1;     // how many times larger things look than where the rope usually is
+  float size_px = 0;    // the width there
+  bool whole = true;    // no occluder hides a side
+  bool seamed = false;  // nor the depth parts it there from a strand that may hide it
 
   [[nodiscard]] Vector2f edge(float side) const {
     return middle_px + 0.5F * side * width_px * normal;
@@ -79,7 +80,14 @@ float reach(const cv::Mat& mask, const Vector2f& p, const Vector2f& direction, f
   return walked - 0.5F * kScanStepPx;
 }
 
-Line measured(const Segment& segment, const cv::Mat& mask, float width_px) {
+// Whether the mask was cut where it ends, at `p` and `aside`.
+bool seam_at(const Region& region, const Vector2f& p, const Vector2f& aside) {
+  const Vector2f step = aside.normalized();
+  return lit(region.seams, p + aside + 0.5F * step) || lit(region.seams, p + aside + 1.2F * step);
+}
+
+Line measured(const Segment& segment, const Region& region, float width_px) {
+  const cv::Mat& mask = region.mask;
   const int half = std::clamp(static_cast<int>(std::lround(0.5F * width_px)), 2, 12);
   const Points points = smoothed(segment.points_px, half);
   const int last = static_cast<int>(points.size()) - 1;
@@ -94,6 +102,9 @@ Line measured(const Segment& segment, const cv::Mat& mask, float width_px) {
       const float right = reach(mask, points[i], -station.normal, most);
       station.middle_px += 0.5F * (left - right) * station.normal;
       station.width_px = left + right;
+      station.seamed =
+          !region.seams.empty() && (seam_at(region, points[i], left * station.normal) ||
+                                    seam_at(region, points[i], -right * station.normal));
     }
     line.push_back(station);
   }
@@ -176,7 +187,7 @@ float least_kept(const std::vector<Line>& lines, float width_px, float none) {
   for (const Line& line : lines) {
     for (std::size_t i = 0; i + length <= line.size(); i += step) {
       std::vector<float> sizes;
-      for (std::size_t k = i; k < i + length && line[k].whole; ++k) {
+      for (std::size_t k = i; k < i + length && line[k].whole && !line[k].seamed; ++k) {
         sizes.push_back(line[k].size_px);
       }
       if (sizes.size() < length) continue;
@@ -198,8 +209,9 @@ float single_size(const std::vector<Line>& lines, float usual_px) {
   for (const Line& line : lines) {
     all += line.size();
     for (const Station& station : line) {
-      if (station.whole && station.size_px <= kSingleShare * narrow)
+      if (station.whole && !station.seamed && station.size_px <= kSingleShare * narrow) {
         single.push_back(station.size_px);
+      }
     }
   }
   if (static_cast<float>(single.size()) < kFewestNarrow * static_cast<float>(all)) return 0;
@@ -363,7 +375,7 @@ Doubles find_doubles(const Graph& graph, const Region& region, const Frame& fram
   std::vector<Line> lines;
   for (const Segment& segment : graph.segments) {
     lines.emplace_back();
-    if (segment.alive) lines.back() = measured(segment, region.mask, graph.width_px);
+    if (segment.alive) lines.back() = measured(segment, region, graph.width_px);
   }
   calm(lines, Cover(region, frame, graph.width_px), graph.width_px);
   const float width_px = single_size(lines, graph.width_px);
