@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <opencv2/core.hpp>
+#include <utility>
 #include <vector>
 
 #include "path/cover.hpp"
@@ -47,6 +48,12 @@ constexpr float kCornerDeep = 0.25F;    // so far before the edge a mask cut off
 constexpr float kCornerAside = 0.8F;    // reaches so far aside, a round one does not
 constexpr float kStandsSeamPx = 8.0F;
 constexpr float kLeastWidthPx = 1.5F;
+constexpr float kForkedLeast = 1.18F;  // times its branches' width: a stem of two strands
+constexpr float kForkedMost = 2.7F;
+constexpr float kForkedSpread = 1.35F;  // and even
+constexpr float kBranchFrom = 1.0F;     // branches tell from this many widths off the fork
+constexpr float kBranchTo = 8.0F;       // to this many
+constexpr std::size_t kFewestStations = 4;
 
 // Across the line at one of its points.
 struct Station {
@@ -221,7 +228,7 @@ float single_size(const std::vector<Line>& lines, float usual_px) {
 class Cutter {
  public:
   Cutter(const Graph& graph, const cv::Mat& mask, float width_px)
-      : graph_(graph), mask_(mask), size_px_(width_px) {}
+      : graph_(graph), mask_(mask), size_px_(width_px), narrowest_px_(width_px) {}
 
   void cut(const Segment& segment, const Line& line) {
     const int count = static_cast<int>(line.size());
@@ -241,7 +248,42 @@ class Cutter {
     }
   }
 
+  // The same for a stem between two forks, each with two branches narrower than the stem. Seen
+  // aslant, two strands are not much wider than one; but four branches need two strands.
+  void cut_stem(std::size_t stem, const std::vector<Line>& lines) {
+    const Segment& segment = graph_.segments[stem];
+    if (!forks(segment, 0) || !forks(segment, 1)) return;
+    std::vector<float> branches;
+    for (const int node : segment.node) {
+      const std::size_t before = branches.size();
+      for (const int end : graph_.nodes[static_cast<std::size_t>(node)].ends) {
+        if (static_cast<std::size_t>(end / 2) != stem) gather(lines, end, branches);
+      }
+      if (branches.size() < before + kFewestStations) return;
+    }
+    const float branch_px = quantile(branches, 0.5F);
+    const Line& line = lines[stem];
+    const auto trim = static_cast<std::size_t>(kBranchFrom * branch_px) + 1;
+    const float shortest = std::max(kShortest * branch_px, kShortestPx);
+    if (static_cast<float>(line.size()) < shortest + 2 * static_cast<float>(trim)) return;
+    std::vector<float> sizes;
+    for (std::size_t i = trim; i + trim < line.size(); ++i) {
+      if (line[i].seamed) return;
+      sizes.push_back(line[i].size_px);
+    }
+    const float ratio = quantile(sizes, 0.5F) / branch_px;
+    if (ratio < kForkedLeast || ratio > kForkedMost) return;
+    if (quantile(sizes, 0.85F) > kForkedSpread * quantile(sizes, 0.15F)) return;
+    const float usual_px = std::exchange(size_px_, branch_px);
+    const std::size_t had = found_.size();
+    draw(segment, line, static_cast<int>(trim), static_cast<int>(line.size() - trim) - 1);
+    size_px_ = usual_px;
+    if (found_.size() > had) narrowest_px_ = std::min(narrowest_px_, branch_px);
+  }
+
   [[nodiscard]] const std::vector<Points>& found() const { return found_; }
+  // Of one strand: what was told, or the narrowest branch of a stem that was cut.
+  [[nodiscard]] float strand_px() const { return narrowest_px_; }
 
  private:
   [[nodiscard]] float widths(const Station& station) const { return station.size_px / size_px_; }
@@ -266,6 +308,19 @@ class Cutter {
   }
   [[nodiscard]] bool forks(const Segment& segment, int side) const {
     return !segment.ring() && graph_.nodes[segment.node[side]].ends.size() > 2;
+  }
+
+  // The sizes near a segment's end; 2 * segment + side.
+  static void gather(const std::vector<Line>& lines, int end, std::vector<float>& sizes) {
+    const Line& line = lines[static_cast<std::size_t>(end / 2)];
+    if (line.empty()) return;
+    const float width_px = std::max(1.0F, line[line.size() / 2].size_px);
+    const auto from = static_cast<std::size_t>(kBranchFrom * width_px) + 1;
+    const auto to = std::min(line.size(), static_cast<std::size_t>(kBranchTo * width_px) + 1);
+    for (std::size_t i = from; i < to; ++i) {
+      const Station& station = end % 2 == 0 ? line[i] : line[line.size() - 1 - i];
+      if (station.whole && !station.seamed) sizes.push_back(station.size_px);
+    }
   }
 
   void draw(const Segment& segment, const Line& line, int first, int last) {
@@ -364,6 +419,7 @@ class Cutter {
   const Graph& graph_;
   const cv::Mat& mask_;
   float size_px_;
+  float narrowest_px_;
   std::vector<Points> found_;
 };
 
@@ -379,10 +435,14 @@ Doubles find_doubles(const Graph& graph, const Region& region, const Frame& fram
   }
   calm(lines, Cover(region, frame, graph.width_px), graph.width_px);
   const float width_px = single_size(lines, graph.width_px);
-  if (width_px < kLeastWidthPx) return {};
-  Cutter cutter(graph, region.mask, width_px);
-  for (std::size_t i = 0; i < lines.size(); ++i) cutter.cut(graph.segments[i], lines[i]);
-  return {cutter.found(), width_px};
+  const bool told = width_px >= kLeastWidthPx;
+  Cutter cutter(graph, region.mask, told ? width_px : graph.width_px);
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    const std::size_t had = cutter.found().size();
+    if (told) cutter.cut(graph.segments[i], lines[i]);
+    if (cutter.found().size() == had && !lines[i].empty()) cutter.cut_stem(i, lines);
+  }
+  return {cutter.found(), cutter.strand_px()};
 }
 
 }  // namespace flowdlo::path
