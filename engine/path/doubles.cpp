@@ -37,11 +37,14 @@ constexpr float kShortestPx = 20.0F;    // what frays leave on thin ropes is sho
 constexpr float kTrimWidths = 0.3F;     // what a round tip takes from the stretch
 constexpr float kTangentWidths = 3.0F;  // what tells the direction at its end
 constexpr float kRunOutWidths = 2.5F;   // from there to where the strands part,
+constexpr float kPartWidths = 12.0F;    // from a fork on,
 constexpr float kCutOffWidths = 8.0F;   // or an occluder aslant hides both
 constexpr float kStepWidths = 2.0F;     // within this way two strands become one
 constexpr float kStepKept = 1.5F;       // and stay one for this long,
 constexpr float kSingleLeast = 0.75F;   // this wide at least
 constexpr float kSingleMost = 1.18F;    // and at most
+constexpr float kPixelNoise = 0.8F;     // and a thin one this many pixels more, beside
+constexpr float kClearMean = 1.85F;     // what is this much wider in the mean
 constexpr float kStepLeast = 0.1F;      // aside from the line the one lies at least this far
 constexpr float kTurnWidths = 1.0F;     // a strand that turns back takes this at the tip
 constexpr float kCornerDeep = 0.25F;    // so far before the edge a mask cut off
@@ -240,6 +243,7 @@ class Cutter {
       const auto length = static_cast<float>(last - first);
       const float mean = sum / length;
       const float width_px = size_px_ * line[(first + last) / 2].nearer;
+      clear_ = mean > kClearMean;
       if (length >= std::max(kShortest * width_px, kShortestPx) && mean < kMeanMost &&
           mean > (anchored(segment, line, first, last - 1) ? kAslantLeast : kMeanLeast)) {
         draw(segment, line, first, last - 1);
@@ -274,6 +278,7 @@ class Cutter {
     const float ratio = quantile(sizes, 0.5F) / branch_px;
     if (ratio < kForkedLeast || ratio > kForkedMost) return;
     if (quantile(sizes, 0.85F) > kForkedSpread * quantile(sizes, 0.15F)) return;
+    clear_ = ratio > kClearMean;
     const float usual_px = std::exchange(size_px_, branch_px);
     const std::size_t had = found_.size();
     draw(segment, line, static_cast<int>(trim), static_cast<int>(line.size() - trim) - 1);
@@ -291,7 +296,8 @@ class Cutter {
     return widths(station) > kDoubleLeast && widths(station) < kDoubleMost;
   }
   [[nodiscard]] bool single(const Station& station) const {
-    return station.whole && widths(station) > kSingleLeast && widths(station) < kSingleMost;
+    const float most = clear_ ? std::max(kSingleMost, 1 + kPixelNoise / size_px_) : kSingleMost;
+    return station.whole && widths(station) > kSingleLeast && widths(station) < most;
   }
   [[nodiscard]] bool at_tip(const Segment& segment, int side) const {
     return !segment.ring() && graph_.nodes[segment.node[side]].ends.size() == 1;
@@ -319,7 +325,7 @@ class Cutter {
     const auto to = std::min(line.size(), static_cast<std::size_t>(kBranchTo * width_px) + 1);
     for (std::size_t i = from; i < to; ++i) {
       const Station& station = end % 2 == 0 ? line[i] : line[line.size() - 1 - i];
-      if (station.whole && !station.seamed) sizes.push_back(station.size_px);
+      if (!station.seamed) sizes.push_back(station.size_px);
     }
   }
 
@@ -331,9 +337,9 @@ class Cutter {
     const Line after(line.begin() + last + 1, line.end());
     Line before(line.begin(), line.begin() + first);
     std::reverse(before.begin(), before.end());
-    const bool e1 = end_at(points, after, at_tip(segment, 1));
+    const bool e1 = end_at(points, after, at_tip(segment, 1)) || part_at(points, segment, 1);
     std::reverse(points.begin(), points.end());
-    const bool e2 = end_at(points, before, at_tip(segment, 0));
+    const bool e2 = end_at(points, before, at_tip(segment, 0)) || part_at(points, segment, 0);
     if (!e1 || !e2) return;
     // A whole piece of the mask as wide as this is one rope.
     if (at_tip(segment, 0) && at_tip(segment, 1) && !step(before, width_px) &&
@@ -383,6 +389,40 @@ class Cutter {
     return points.size() > 1;
   }
 
+  // Ends the line at its back where the two branches of the segment's fork part: midway between
+  // them from the fork on, to the first point that is no mask. False when there is none near.
+  [[nodiscard]] bool part_at(Points& points, const Segment& segment, int side) const {
+    if (!forks(segment, side)) return false;
+    const Node& node = graph_.nodes[static_cast<std::size_t>(segment.node[side])];
+    std::vector<int> ends;
+    for (const int end : node.ends) {
+      const Segment& branch = graph_.segments[static_cast<std::size_t>(end / 2)];
+      if (&branch != &segment) ends.push_back(end);
+    }
+    const float near_px = kRunOutWidths * size_px_ + 2;
+    if (ends.size() != 2 || (points.back() - node.position_px).norm() > near_px) return false;
+    Points on = points;
+    on.push_back(node.position_px);
+    const auto most = static_cast<std::size_t>(kPartWidths * size_px_) + 2;
+    for (std::size_t i = 1; i < most; ++i) {
+      const Vector2f* a = along_branch(ends[0], i);
+      const Vector2f* b = along_branch(ends[1], i);
+      if (a == nullptr || b == nullptr) return false;
+      on.push_back(0.5F * (*a + *b));
+      if (lit(mask_, on.back())) continue;
+      points = std::move(on);
+      return true;
+    }
+    return false;
+  }
+
+  // The point `i` steps from an end of a segment, before its middle; null beyond.
+  [[nodiscard]] const Vector2f* along_branch(int end, std::size_t i) const {
+    const Points& points = graph_.segments[static_cast<std::size_t>(end / 2)].points_px;
+    if (2 * i >= points.size()) return nullptr;
+    return end % 2 == 0 ? &points[i] : &points[points.size() - 1 - i];
+  }
+
   // Where the line, bending on as it does, comes nearest to `p`.
   static Vector2f ahead(const Points& points, std::size_t back, const Vector2f& p) {
     const std::size_t last = points.size() - 1;
@@ -420,6 +460,7 @@ class Cutter {
   const cv::Mat& mask_;
   float size_px_;
   float narrowest_px_;
+  bool clear_ = false;  // the stretch at hand is too wide for one strand whatever its noise
   std::vector<Points> found_;
 };
 
