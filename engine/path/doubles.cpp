@@ -239,7 +239,7 @@ class Cutter {
       if (!wide(line[first])) continue;
       int last = first;
       float sum = 0;
-      for (; last < count && wide(line[last]); ++last) sum += widths(line[last]);
+      for (; last < count && goes_on(line, last); ++last) sum += widths(line[last]);
       const auto length = static_cast<float>(last - first);
       const float mean = sum / length;
       const float width_px = size_px_ * line[(first + last) / 2].nearer;
@@ -294,6 +294,14 @@ class Cutter {
   [[nodiscard]] float widths(const Station& station) const { return station.size_px / size_px_; }
   [[nodiscard]] bool wide(const Station& station) const {
     return widths(station) > kDoubleLeast && widths(station) < kDoubleMost;
+  }
+  // Wide at `i`, or wider still for no longer than a strand is wide.
+  [[nodiscard]] bool goes_on(const Line& line, int i) const {
+    const int count = static_cast<int>(line.size());
+    const int most = i + static_cast<int>(size_px_) + 1;
+    for (; i < std::min(count, most) && widths(line[i]) >= kDoubleMost; ++i) {
+    }
+    return i < count && wide(line[i]);
   }
   [[nodiscard]] bool single(const Station& station) const {
     const float most = clear_ ? std::max(kSingleMost, 1 + kPixelNoise / size_px_) : kSingleMost;
