@@ -14,7 +14,9 @@
 
 #include "eval/error_overlay.hpp"
 #include "eval/evaluator.hpp"
+#include "eval/method_rows.hpp"
 #include "eval/plots.hpp"
+#include "eval/results.hpp"
 #include "eval/tables.hpp"
 #include "flowdlo/frame_folder.hpp"
 #include "frame/staged_files.hpp"
@@ -30,7 +32,9 @@ namespace fs = std::filesystem;
 struct EvalOptions {
   std::vector<fs::path> frames;
   fs::path out;
+  fs::path results;
   Config config;
+  eval::ContenderConfig contenders;
   int worst = 0;
   bool quiet = false;
 };
@@ -51,15 +55,16 @@ std::vector<eval::Trial> run_all(const EvalOptions& options, const std::vector<F
   return trials;
 }
 
-std::string heading(const EvalOptions& options, const eval::Evaluator& evaluator) {
+std::string how(const EvalOptions& options, const eval::Evaluator& evaluator) {
   return fmt::format(
-      "# Evaluation\n\n{} draws of {} steps on {}; weights: {}.\n\n", options.config.draws,
-      options.config.euler_steps, evaluator.device(),
+      "{} draws of {} steps on {}; weights: {}.", options.config.draws, options.config.euler_steps,
+      evaluator.device(),
       options.config.weights.empty() ? "those that ship" : options.config.weights.string());
 }
 
-Result<void> save(const fs::path& out, const std::string& tables,
+Result<void> save(const EvalOptions& options, const std::string& tables, const std::string& results,
                   const std::vector<eval::Trial>& trials) {
+  const fs::path& out = options.out;
   std::error_code failure;
   fs::create_directories(out, failure);
   if (failure || !fs::is_directory(out, failure)) {
@@ -73,6 +78,12 @@ Result<void> save(const fs::path& out, const std::string& tables,
   frame::StagedFiles staged;
   if (auto done = staged.add(out / "tables.md", tables); !done) return done;
   if (auto done = staged.add(out / "rows.csv", eval::rows_csv(trials)); !done) return done;
+  if (auto done = staged.add(out / "results.md", results); !done) return done;
+  if (auto done = staged.add(out / "methods.csv", eval::method_rows_csv(trials)); !done)
+    return done;
+  if (!options.results.empty()) {
+    if (auto done = staged.add(options.results, results); !done) return done;
+  }
   if (auto done = staged.add(out / "error_bars.png", *bars); !done) return done;
   if (auto done = staged.add(out / "error_curve.png", *curve); !done) return done;
   return staged.commit();
@@ -106,11 +117,13 @@ Result<void> draw_worst(const EvalOptions& options, const std::vector<FrameEntry
 ExitCode run(const EvalOptions& options) {
   const auto frames = list_frames(options.frames);
   if (!frames) return complain(frames.error(), ExitCode::kUsage);
-  auto evaluator = eval::Evaluator::create(options.config);
+  auto evaluator = eval::Evaluator::create(options.config, options.contenders);
   if (!evaluator) return complain(evaluator.error(), ExitCode::kUsage);
   const auto trials = run_all(options, *frames, *evaluator);
-  const std::string tables = heading(options, *evaluator) + eval::tables_markdown(trials);
-  if (const auto saved = save(options.out, tables, trials); !saved) {
+  const std::string run = how(options, *evaluator);
+  const std::string tables = "# Evaluation\n\n" + run + "\n\n" + eval::tables_markdown(trials);
+  const std::string results = eval::results_markdown(trials, run);
+  if (const auto saved = save(options, tables, results, trials); !saved) {
     return complain(saved.error(), ExitCode::kFailed);
   }
   if (options.worst > 0) {
@@ -122,6 +135,22 @@ ExitCode run(const EvalOptions& options) {
   return ExitCode::kDone;
 }
 
+void add_contender_options(CLI::App& command, EvalOptions& options) {
+  command
+      .add_option("--baselines", options.contenders.baselines,
+                  "trackdlo, trackdlo-repaired, geodesic, mbest, dloftbs, or all")
+      ->delimiter(',')
+      ->type_name("NAME,...");
+  command
+      .add_option("--models", options.contenders.models,
+                  "Folder of NAME.fdw to compare; full, no-points, direct and residual are the "
+                  "thesis' ablations")
+      ->check(CLI::ExistingDirectory)
+      ->type_name("DIR");
+  command.add_option("--results", options.results, "Write results.md here as well")
+      ->type_name("FILE");
+}
+
 }  // namespace
 
 void add_eval_command(CLI::App& app, ExitCode& exit_code) {
@@ -129,10 +158,11 @@ void add_eval_command(CLI::App& app, ExitCode& exit_code) {
   auto* command = app.add_subcommand("eval", "Frames with truth in, tables and plots out");
   command->add_option("DATASET", options->frames, "Folders of frame folders, or frame folders")
       ->required();
-  command->add_option("--out", options->out, "For tables.md, rows.csv and the plots")
+  command->add_option("--out", options->out, "For tables.md, results.md, rows and plots")
       ->required()
       ->type_name("DIR");
   add_model_options(*command, options->config);
+  add_contender_options(*command, *options);
   command->add_option("--worst", options->worst, "Draw the N frames of the largest errors")
       ->capture_default_str()
       ->check(CLI::Range(0, 1000000))

@@ -83,6 +83,17 @@ void join(CrossingGraph& graph, int a, int b, const cv::Point2f& place) {
   graph.crossing_of[at(a / 2) * 2 + 1] = back;
 }
 
+// What lies between the pixels of one junction is no branch.
+void remove_insides(CrossingGraph& graph) {
+  for (std::size_t stroke = 0; stroke < graph.strokes.size(); ++stroke) {
+    const int crossing = graph.crossing_of[2 * stroke];
+    const bool inside = crossing >= 0 && crossing == graph.crossing_of[2 * stroke + 1];
+    if (inside && length_px(graph.strokes[stroke]) < kSpurInRadii * graph.radius_px) {
+      remove(graph, stroke);
+    }
+  }
+}
+
 bool remove_one_spur(CrossingGraph& graph) {
   for (std::size_t stroke = 0; stroke < graph.strokes.size(); ++stroke) {
     if (graph.strokes[stroke].empty()) continue;
@@ -142,6 +153,7 @@ CrossingGraph crossing_graph(const cv::Mat& mask) {
     graph.crossing_of.push_back(crossing_near(stroke.front(), labels));
     graph.crossing_of.push_back(crossing_near(stroke.back(), labels));
   }
+  remove_insides(graph);
   while (remove_one_spur(graph)) join_passages(graph);
   join_passages(graph);
   merge_flat_crossings(graph);
