@@ -7,6 +7,7 @@
 #include <system_error>
 
 #include "eval/draws.hpp"
+#include "flowdlo/weights.hpp"
 #include "gate/gate.hpp"
 
 namespace flowdlo::eval {
@@ -40,7 +41,7 @@ void run_baseline(const baselines::Baseline& baseline, const baselines::Observat
   if (!account.valid()) return;
   account.mask_agreement =
       static_cast<double>(mask.agreement(attempt.nodes, seen.folder.intrinsics));
-  trial.curves[baseline.name] = {attempt.nodes};
+  trial.curves[baseline.name] = {kept(attempt.nodes)};
   if (!seen.folder.truth) return;
   trial.methods[baseline.name] = baseline.either_way
                                      ? either_way(attempt.nodes, *seen.folder.truth)
@@ -50,6 +51,24 @@ void run_baseline(const baselines::Baseline& baseline, const baselines::Observat
 }  // namespace
 
 std::string swept(const std::string& name, int steps) { return fmt::format("{}@{}", name, steps); }
+
+Result<std::map<std::string, std::string>> settings_of(const ContenderConfig& contenders) {
+  std::map<std::string, std::string> settings;
+  const auto chosen = baselines::choose_baselines(contenders.baselines);
+  if (!chosen) return chosen.error();
+  for (const baselines::Baseline* baseline : *chosen) {
+    settings[fmt::format("baseline {}", baseline->name)] = "on";
+  }
+  if (contenders.models.empty()) return settings;
+  const auto files = weights_in(contenders.models);
+  if (!files) return files.error();
+  for (const fs::path& file : *files) {
+    const auto info = inspect_weights(file);
+    if (!info) return info.error();
+    settings[fmt::format("model {}", file.stem().string())] = info->sha256;
+  }
+  return settings;
+}
 
 Result<Contenders> Contenders::create(const Config& config, const ContenderConfig& contenders) {
   Contenders result;

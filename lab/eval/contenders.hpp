@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -19,6 +20,11 @@ struct ContenderConfig {
   /// columns of the thesis' tables, and full and direct run at 1, 4, 10 and 20 steps.
   std::filesystem::path models;
 };
+
+/// What rows depend on through `contenders`: baselines by name, models by the sum of their tensors.
+/// Fails with kBadInput and as inspect_weights does.
+[[nodiscard]] Result<std::map<std::string, std::string>> settings_of(
+    const ContenderConfig& contenders);
 
 /// The steps of Table 4.5.
 inline constexpr int kSweep[] = {1, 4, 10, 20};

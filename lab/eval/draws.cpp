@@ -13,10 +13,12 @@ std::string key(const std::string& method, const char* part) {
 
 std::string key(const std::string& method) { return method.empty() ? "model" : method; }
 
+constexpr float kFarthest_m = 1000;  // beyond it nothing is worth drawing
+
 bool finite(const Centerline& nodes) {
-  return std::all_of(nodes.begin(), nodes.end(), [](const Point3& p) {
-    return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
-  });
+  const auto near = [](float value) { return std::abs(value) < kFarthest_m; };  // no NaN is
+  return std::all_of(nodes.begin(), nodes.end(),
+                     [&](const Point3& p) { return near(p.x) && near(p.y) && near(p.z); });
 }
 
 std::vector<Centerline> predictions_of(const Tensors& tensors) {
@@ -40,6 +42,17 @@ Centerline centerline_of(std::span<const float> values) {
   return nodes;
 }
 
+Centerline kept(const Centerline& nodes) {
+  Centerline rounded{};
+  const auto round = [](float value) {
+    return static_cast<float>(std::round(static_cast<double>(value) / kCurveUnit_m) * kCurveUnit_m);
+  };
+  for (std::size_t i = 0; i < kNodes; ++i) {
+    rounded[i] = {round(nodes[i].x), round(nodes[i].y), round(nodes[i].z)};
+  }
+  return rounded;
+}
+
 void add_draws(const Estimate& estimate, const Tensors& tensors, const std::string& method,
                Trial& trial) {
   Account& account = trial.accounts[key(method)];
@@ -55,9 +68,12 @@ void add_draws(const Estimate& estimate, const Tensors& tensors, const std::stri
   prior.output = true;
   prior.mask_agreement = static_cast<double>(estimate.prior_mask_agreement);
   auto& curves = trial.curves[key(method)];
-  curves = predictions_of(tensors);
-  std::erase_if(curves, [](const Centerline& nodes) { return !finite(nodes); });
-  if (method.empty()) trial.curves["prior"] = {centerline_of(tensors.prior)};
+  curves.clear();
+  for (const Centerline& nodes : predictions_of(tensors)) {
+    if (finite(nodes)) curves.push_back(kept(nodes));
+  }
+  if (method.find('@') != std::string::npos && !curves.empty()) curves.resize(1);
+  if (method.empty()) trial.curves["prior"] = {kept(centerline_of(tensors.prior))};
 }
 
 void add_draw_scores(const Estimate& estimate, const Tensors& tensors, const Centerline& truth,

@@ -13,8 +13,13 @@ namespace flowdlo::eval {
 /// [64, 3] floats as a centerline.
 [[nodiscard]] Centerline centerline_of(std::span<const float> values);
 
+/// Curves are kept to the hundredth of a millimetre, so that files of them stay small.
+inline constexpr double kCurveUnit_m = 1e-5;
+[[nodiscard]] Centerline kept(const Centerline& nodes);
+
 /// Accounts and curves of `method`'s draws ("model" where it is empty), and the account of the
-/// prior they were judged against (METHOD.prior, or "prior").
+/// prior they were judged against (METHOD.prior, or "prior"). A method with steps in its name
+/// ("full@4") keeps the curve of its first draw only.
 void add_draws(const Estimate& estimate, const Tensors& tensors, const std::string& method,
                Trial& trial);
 

@@ -26,7 +26,7 @@ void add_prior(Estimator& estimator, const Frame& frame, const Centerline& truth
   Tensors tensors;
   if (!estimator.estimate(frame, tensors)) return;
   trial.methods[method] = mean_of({score(centerline_of(tensors.prior), truth)});
-  trial.curves[method] = {centerline_of(tensors.prior)};
+  trial.curves[method] = {kept(centerline_of(tensors.prior))};
 }
 
 /// `truth` turned to the estimate's direction.

@@ -61,7 +61,7 @@ struct Trial {
 
   /// By method, as far as it was run; "model" and "prior" are those of the estimate.
   std::map<std::string, Account> accounts;
-  /// By method, one a draw, camera frame, in its published direction; no NaN.
+  /// By method, one a draw, camera frame, in its published direction; rounded, no NaN.
   std::map<std::string, std::vector<Centerline>> curves;
 
   Centerline nodes{};  ///< the estimate
