@@ -25,6 +25,8 @@ class Canvas {
   Canvas(int width, int height);
 
   void write(const std::string& text, cv::Point at, double size = 0.42);
+  /// On white, where a drawing lies behind it.
+  void write_over(const std::string& text, cv::Point at, double size = 0.42);
   /// Ends at `at.x`.
   void write_left_of(const std::string& text, cv::Point at, double size = 0.42);
   void write_centred(const std::string& text, cv::Point at, double size = 0.42);

@@ -58,17 +58,17 @@ void draw_panel(const Trial& trial, const Panel& panel, const cv::Rect& place, C
   for (const auto& [method, color] : panel.methods) {
     if (method.empty()) {
       if (trial.answered()) space.draw(trial.nodes, color, 1, view);
-      text += "  estimate " + error_text(trial, "estimate");
+      text += (text.empty() ? "estimate " : "  estimate ") + error_text(trial, "estimate");
       continue;
     }
-    text += "  " + method + " " + error_text(trial, method);
+    text += (text.empty() ? "" : "  ") + method + " " + error_text(trial, method);
     const auto found = trial.curves.find(method);
     if (found == trial.curves.end()) continue;
     for (std::size_t d = 0; d < found->second.size(); ++d) {
       space.draw(found->second[d], color == cv::Scalar() ? draw_color(d) : color, 1, view);
     }
   }
-  canvas.write(text, {place.x, place.y + place.height - 6}, 0.36);
+  canvas.write_over(text, {place.x + 4, place.y + place.height - 6}, 0.36);
   cv::rectangle(canvas.picture(), place, {225, 225, 225});
 }
 

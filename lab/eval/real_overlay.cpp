@@ -13,7 +13,7 @@ namespace flowdlo::eval {
 namespace {
 
 constexpr std::size_t kMostFrames = 6;
-constexpr int kSide = 420;
+constexpr int kSide = 360;
 constexpr int kTop = 54;
 constexpr float kFarthest_px = 1e5F;
 

@@ -136,9 +136,9 @@ Result<std::vector<std::uint8_t>> sweep_sheet_png(const DataSet& data_set) {
         space.draw(found->second.front(), line->color, 2, view);
       }
       const Outcome* outcome = trial->of(swept(line->model, steps));
-      canvas.write(fmt::format("K = {}: {:.2f} cm over the draws", steps,
-                               outcome == nullptr ? 0 : 100 * outcome->index_m),
-                   {x + 4, place.y + place.height - 6}, 0.36);
+      canvas.write_over(fmt::format("K = {}: {:.2f} cm over the draws", steps,
+                                    outcome == nullptr ? 0 : 100 * outcome->index_m),
+                        {x + 4, place.y + place.height - 6}, 0.36);
       cv::rectangle(canvas.picture(), place, {225, 225, 225});
       x += kWidth + 10;
     }

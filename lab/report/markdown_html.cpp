@@ -1,5 +1,8 @@
 #include "report/markdown_html.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <cstddef>
 #include <vector>
 
@@ -16,8 +19,12 @@ std::vector<std::string_view> lines_of(std::string_view text) {
   return lines;
 }
 
+std::string element(const std::string& name, const std::string& content) {
+  return fmt::format("<{0}>{1}</{0}>", name, content);
+}
+
 // A pair of `mark` becomes an element; a single one stays.
-std::string paired(const std::string& text, char mark, const std::string& element) {
+std::string paired(const std::string& text, char mark, const char* name) {
   std::string result;
   std::size_t at = 0;
   for (;;) {
@@ -25,7 +32,7 @@ std::string paired(const std::string& text, char mark, const std::string& elemen
     const std::size_t close = open == std::string::npos ? open : text.find(mark, open + 1);
     if (close == std::string::npos) return result + text.substr(at);
     result += text.substr(at, open - at);
-    result += "<" + element + ">" + text.substr(open + 1, close - open - 1) + "</" + element + ">";
+    result += element(name, text.substr(open + 1, close - open - 1));
     at = close + 1;
   }
 }
@@ -48,12 +55,10 @@ std::vector<std::string_view> cells_of(std::string_view line) {
   return cells;
 }
 
-std::string row_html(std::string_view line, const char* element) {
-  std::string row = "<tr>";
-  for (const std::string_view cell : cells_of(line)) {
-    row += "<" + std::string(element) + ">" + inline_html(cell) + "</" + element + ">";
-  }
-  return row + "</tr>\n";
+std::string row_html(std::string_view line, const char* cell_name) {
+  std::string row;
+  for (const std::string_view cell : cells_of(line)) row += element(cell_name, inline_html(cell));
+  return element("tr", row) + "\n";
 }
 
 bool is_heading(std::string_view line) {
@@ -97,8 +102,7 @@ std::string html_of(std::string_view markdown) {
       ++i;
     } else if (is_heading(lines[i])) {
       const std::size_t depth = lines[i].find_first_not_of('#');
-      const std::string tag = "h" + std::to_string(depth);
-      html += "<" + tag + ">" + inline_html(lines[i++].substr(depth + 1)) + "</" + tag + ">\n";
+      html += element(fmt::format("h{}", depth), inline_html(lines[i++].substr(depth + 1))) + "\n";
     } else if (is_row(lines[i])) {
       html += "<div class=\"table\"><table>\n" + row_html(lines[i++], "th");
       if (i < lines.size() && lines[i].starts_with("|--")) ++i;
@@ -107,7 +111,7 @@ std::string html_of(std::string_view markdown) {
     } else if (is_item(lines[i])) {
       html += "<ul>\n";
       while (i < lines.size() && is_item(lines[i])) {
-        html += "<li>" + inline_html(lines[i++].substr(2)) + "</li>\n";
+        html += element("li", inline_html(lines[i++].substr(2))) + "\n";
       }
       html += "</ul>\n";
     } else {

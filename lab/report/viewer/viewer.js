@@ -23,7 +23,7 @@ import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 const data = window.flowdlo;
 const page = document.body;
 const box = document.getElementById("view");
-const hidden = new Set(["prior", "refined", "geodesic", "mbest", "dloftbs"]);
+const shown = new Set(["truth", "estimate", "trackdlo"]);
 let renderer;
 let camera;
 let controls;
@@ -87,7 +87,7 @@ function draw(fit) {
   const middle = bounds.getCenter(new Vector3());
   const reach = Math.max(bounds.getSize(new Vector3()).length(), 0.02);
   for (const [method, lines] of Object.entries(curves)) {
-    if (hidden.has(method)) continue;
+    if (!shown.has(method)) continue;
     const radius = reach * (method === "truth" ? 0.0055 : 0.0035);
     for (const line of lines) scene.add(tube(line, data.colors[method] || "#777777", radius));
   }
@@ -109,10 +109,10 @@ function legend() {
     const label = document.createElement("label");
     const check = document.createElement("input");
     check.type = "checkbox";
-    check.checked = !hidden.has(method);
+    check.checked = shown.has(method);
     check.addEventListener("change", () => {
-      if (check.checked) hidden.delete(method);
-      else hidden.add(method);
+      if (check.checked) shown.add(method);
+      else shown.delete(method);
       draw(false);
     });
     const swatch = document.createElement("i");
