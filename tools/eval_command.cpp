@@ -28,6 +28,7 @@
 #include "frame_list.hpp"
 #include "model_options.hpp"
 #include "progress_bar.hpp"
+#include "recording_arguments.hpp"
 
 namespace flowdlo::tools {
 namespace {
@@ -38,6 +39,7 @@ struct EvalOptions {
   std::vector<fs::path> frames;
   fs::path out;
   Config config;
+  RecordingArguments recordings;
   int jobs = 1;
   std::string shard = "1/1";
   int worst = 0;
@@ -84,7 +86,12 @@ Result<eval::RunInfo> describe(const EvalOptions& options, const std::vector<Fra
   info.settings["build"] = build_sum();
   info.weights = options.config.weights.string();
   info.device = device;
-  for (const FrameEntry& entry : frames) info.frames.push_back(entry.name);
+  bool recorded = false;
+  for (const FrameEntry& entry : frames) {
+    info.frames.push_back(entry.name);
+    recorded = recorded || entry.read;
+  }
+  if (recorded) info.settings["recordings"] = described(options.recordings);
   info.shard = shard;
   return info;
 }
@@ -114,8 +121,11 @@ Result<void> run_rows(const EvalOptions& options, const std::vector<FrameEntry>&
   }
   std::vector<eval::Worker> workers;
   for (eval::Evaluator& evaluator : evaluators) {
-    workers.emplace_back(
-        [&](std::size_t row) { return evaluator.run(frames[row].folder, frames[row].name); });
+    workers.emplace_back([&](std::size_t row) {
+      const FrameEntry& entry = frames[row];
+      return entry.read ? evaluator.run(entry.read(), eval::SceneInfo{}, entry.name)
+                        : evaluator.run(entry.folder, entry.name);
+    });
   }
   ProgressBar progress("eval", static_cast<int>(file.lacking().size()), options.quiet);
   return eval::run_jobs(file.lacking(), workers, [&](eval::Row row) {
@@ -156,7 +166,7 @@ Result<void> draw_worst(const EvalOptions& options, const std::vector<FrameEntry
   fs::create_directories(options.out / "worst", failure);
   frame::StagedFiles staged;
   for (const std::size_t i : order) {
-    const auto folder = load_frame_folder(frames[i].folder);
+    const auto folder = load_frame(frames[i]);
     if (!folder) return folder.error();
     const auto picture = eval::error_overlay_png(folder->frame(), trials[i].truth, trials[i].nodes);
     if (!picture) return picture.error();
@@ -201,7 +211,8 @@ ExitCode finish(const EvalOptions& options, const std::vector<FrameEntry>& frame
 ExitCode run(const EvalOptions& options) {
   const auto shard = eval::parse_shard(options.shard);
   if (!shard) return complain(shard.error());
-  const auto frames = list_frames(options.frames);
+  const auto frames =
+      list_frames(options.frames, recording_opener(options.recordings, options.quiet));
   if (!frames) return complain(frames.error(), ExitCode::kUsage);
   auto evaluators = create_evaluators(options, frames->size());
   if (!evaluators) return complain(evaluators.error(), ExitCode::kUsage);
@@ -239,7 +250,8 @@ CLI::App* add_merge_command(CLI::App& eval_command, MergeOptions& options) {
 void add_eval_command(CLI::App& app, ExitCode& exit_code) {
   auto options = std::make_shared<EvalOptions>();
   auto* command = app.add_subcommand("eval", "Frames with truth in, tables and plots out");
-  command->add_option("DATASET", options->frames, "Folders of frame folders, or frame folders");
+  command->add_option("DATASET", options->frames,
+                      "Folders of frame folders, frame folders, or ROS 1 bags");
   command->add_option("--out", options->out, "For tables.md, rows.csv, timings.csv and the plots")
       ->type_name("DIR");
   add_model_options(*command, options->config);
@@ -255,6 +267,7 @@ void add_eval_command(CLI::App& app, ExitCode& exit_code) {
       ->check(CLI::Range(0, 1000000))
       ->type_name("N");
   command->add_flag("--quiet", options->quiet, "Print errors only");
+  add_recording_options(*command, options->recordings);
   auto merging = std::make_shared<MergeOptions>();
   const auto* merge = add_merge_command(*command, *merging);
   command->callback([options, merging, merge, &exit_code] {

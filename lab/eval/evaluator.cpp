@@ -81,11 +81,14 @@ Result<Evaluator> Evaluator::create(const Config& config) {
 }
 
 Trial Evaluator::run(const std::filesystem::path& path, const std::string& name) {
+  return run(load_frame_folder(path), read_scene_info(path), name);
+}
+
+Trial Evaluator::run(const Result<FrameFolder>& folder, const Result<SceneInfo>& scene,
+                     const std::string& name) {
   Trial trial;
   trial.name = name;
-  const auto folder = load_frame_folder(path);
-  auto scene = read_scene_info(path);
-  if (scene) trial.scene = *std::move(scene);
+  if (scene) trial.scene = *scene;
   if (!folder || !scene) {
     trial.failure = folder ? scene.error().message : folder.error().message;
     return trial;

@@ -6,6 +6,7 @@
 
 #include "eval/trial.hpp"
 #include "flowdlo/estimator.hpp"
+#include "flowdlo/frame_folder.hpp"
 
 namespace flowdlo::eval {
 
@@ -17,6 +18,10 @@ class Evaluator {
 
   /// Never fails: what goes wrong with a frame stands in Trial::failure and costs its row only.
   [[nodiscard]] Trial run(const std::filesystem::path& folder, const std::string& name);
+
+  /// The same, of a frame that comes from elsewhere.
+  [[nodiscard]] Trial run(const Result<FrameFolder>& frame, const Result<SceneInfo>& scene,
+                          const std::string& name);
 
   [[nodiscard]] const std::string& device() const { return estimator_.device(); }
 
