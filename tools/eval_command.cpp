@@ -30,6 +30,7 @@
 #include "frame_list.hpp"
 #include "model_options.hpp"
 #include "progress_bar.hpp"
+#include "recording_arguments.hpp"
 
 namespace flowdlo::tools {
 namespace {
@@ -42,6 +43,7 @@ struct EvalOptions {
   fs::path results;
   Config config;
   eval::ContenderConfig contenders;
+  RecordingArguments recordings;
   int jobs = 1;
   std::string shard = "1/1";
   int worst = 0;
@@ -92,7 +94,12 @@ Result<eval::RunInfo> describe(const EvalOptions& options, const std::vector<Fra
   info.settings.insert(others->begin(), others->end());
   info.weights = options.config.weights.string();
   info.device = device;
-  for (const FrameEntry& entry : frames) info.frames.push_back(entry.name);
+  bool recorded = false;
+  for (const FrameEntry& entry : frames) {
+    info.frames.push_back(entry.name);
+    recorded = recorded || entry.read;
+  }
+  if (recorded) info.settings["recordings"] = described(options.recordings);
   info.shard = shard;
   return info;
 }
@@ -122,8 +129,11 @@ Result<void> run_rows(const EvalOptions& options, const std::vector<FrameEntry>&
   }
   std::vector<eval::Worker> workers;
   for (eval::Evaluator& evaluator : evaluators) {
-    workers.emplace_back(
-        [&](std::size_t row) { return evaluator.run(frames[row].folder, frames[row].name); });
+    workers.emplace_back([&](std::size_t row) {
+      const FrameEntry& entry = frames[row];
+      return entry.read ? evaluator.run(entry.read(), eval::SceneInfo{}, entry.name, entry.folder)
+                        : evaluator.run(entry.folder, entry.name);
+    });
   }
   ProgressBar progress("eval", static_cast<int>(file.lacking().size()), options.quiet);
   return eval::run_jobs(file.lacking(), workers, [&](eval::Row row) {
@@ -164,7 +174,7 @@ Result<void> draw_worst(const EvalOptions& options, const std::vector<FrameEntry
   fs::create_directories(options.out / "worst", failure);
   frame::StagedFiles staged;
   for (const std::size_t i : order) {
-    const auto folder = load_frame_folder(frames[i].folder);
+    const auto folder = load_frame(frames[i]);
     if (!folder) return folder.error();
     const auto picture = eval::error_overlay_png(folder->frame(), trials[i].truth, trials[i].nodes);
     if (!picture) return picture.error();
@@ -213,7 +223,8 @@ ExitCode finish(const EvalOptions& options, const std::vector<FrameEntry>& frame
 ExitCode run(const EvalOptions& options) {
   const auto shard = eval::parse_shard(options.shard);
   if (!shard) return complain(shard.error());
-  const auto frames = list_frames(options.frames);
+  const auto frames =
+      list_frames(options.frames, recording_opener(options.recordings, options.quiet));
   if (!frames) return complain(frames.error(), ExitCode::kUsage);
   auto evaluators = create_evaluators(options, frames->size());
   if (!evaluators) return complain(evaluators.error(), ExitCode::kUsage);
@@ -252,7 +263,8 @@ CLI::App* add_merge_command(CLI::App& eval_command, MergeOptions& options) {
 void add_eval_command(CLI::App& app, ExitCode& exit_code) {
   auto options = std::make_shared<EvalOptions>();
   auto* command = app.add_subcommand("eval", "Frames with truth in, tables and plots out");
-  command->add_option("DATASET", options->frames, "Folders of frame folders, or frame folders");
+  command->add_option("DATASET", options->frames,
+                      "Folders of frame folders, frame folders, or ROS 1 bags");
   command->add_option("--out", options->out, "For tables, rows, figures and report.html")
       ->type_name("DIR");
   add_model_options(*command, options->config);
@@ -270,6 +282,7 @@ void add_eval_command(CLI::App& app, ExitCode& exit_code) {
       ->check(CLI::Range(0, 1000000))
       ->type_name("N");
   command->add_flag("--quiet", options->quiet, "Print errors only");
+  add_recording_options(*command, options->recordings);
   auto merging = std::make_shared<MergeOptions>();
   const auto* merge = add_merge_command(*command, *merging);
   command->callback([options, merging, merge, &exit_code] {

@@ -7,6 +7,7 @@
 #include "eval/contenders.hpp"
 #include "eval/trial.hpp"
 #include "flowdlo/estimator.hpp"
+#include "flowdlo/frame_folder.hpp"
 
 namespace flowdlo::eval {
 
@@ -20,6 +21,10 @@ class Evaluator {
 
   /// Never fails: what goes wrong with a frame stands in Trial::failure and costs its row only.
   [[nodiscard]] Trial run(const std::filesystem::path& folder, const std::string& name);
+
+  /// The same, of a frame that comes from elsewhere: `place` is the recording that holds it.
+  [[nodiscard]] Trial run(const Result<FrameFolder>& frame, const Result<SceneInfo>& scene,
+                          const std::string& name, const std::filesystem::path& place);
 
   [[nodiscard]] const std::string& device() const { return estimator_.device(); }
 
