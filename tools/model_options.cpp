@@ -18,6 +18,15 @@ void add_prior_options(CLI::App& command, Config& config) {
           CLI::ignore_case))
       ->type_name("KIND");
   command
+      .add_option("--gate", config.gate,
+                  "Who decides between predictions and priors: thesis (Eq. 3.30-3.33), or "
+                  "calibrated (a fitted score)")
+      ->transform(CLI::CheckedTransformer(
+          std::map<std::string, GateChoice>{{"thesis", GateChoice::kThesis},
+                                            {"calibrated", GateChoice::kCalibrated}},
+          CLI::ignore_case))
+      ->type_name("RULE");
+  command
       .add_option("--rope-length", config.rope_length_m,
                   "Metres, where the rope's length is known; 0: unknown")
       ->capture_default_str()

@@ -8,6 +8,7 @@
 #include <exception>
 #include <vector>
 
+#include "estimator/candidates.hpp"
 #include "estimator/conditions.hpp"
 #include "estimator/confidence.hpp"
 #include "estimator/device_choice.hpp"
@@ -16,6 +17,7 @@
 #include "estimator/weights_location.hpp"
 #include "evidence/mask_field.hpp"
 #include "flow/sampler.hpp"
+#include "gate/calibrated.hpp"
 #include "gate/gate.hpp"
 #include "prior/prior.hpp"
 #include "weights/weights.hpp"
@@ -83,6 +85,38 @@ float confidence_of(const std::vector<estimator::Hypothesis>& hypotheses, std::s
   return std::min(1 - of_best, estimator::confidence(other.evidence, 0));
 }
 
+/// What the estimate will be.
+struct Returned {
+  int draw = -1;  // -1: the prior of the hypothesis
+  std::size_t hypothesis = 0;
+  float confidence = 0;
+};
+
+/// The caller's view of what the gate chose, Eq. (3.33).
+Estimate conclude(const Returned& returned, const std::vector<estimator::Hypothesis>& hypotheses,
+                  const flow::Prediction& prediction, gate::Verdict verdict,
+                  const gate::DilatedMask& mask, const Frame& frame) {
+  const prior::Prior& prior = hypotheses[returned.hypothesis].prior;
+  Estimate estimate;
+  estimate.source = returned.draw >= 0 ? Source::kPrediction : Source::kPrior;
+  estimate.draw = returned.draw;
+  estimate.nodes =
+      returned.draw >= 0 ? prediction.draws[static_cast<std::size_t>(returned.draw)] : prior.nodes;
+  estimate.support = prior.support;
+  estimate.sigma_m = estimator::node_sigma(estimate.source, returned.draw, prediction, prior);
+  estimate.mask_agreement = mask.agreement(estimate.nodes, frame.intrinsics);
+  estimate.prior_mask_agreement = verdict.prior_agreement;
+  estimate.confidence = returned.confidence;
+  estimate.draws = std::move(verdict.draws);
+  for (std::size_t i = 0; i < hypotheses.size(); ++i) {
+    if (i == returned.hypothesis) continue;
+    const auto& other = hypotheses[i];
+    estimate.alternatives.push_back({other.prior.nodes, static_cast<float>(other.score),
+                                     mask.agreement(other.prior.nodes, frame.intrinsics)});
+  }
+  return estimate;
+}
+
 }  // namespace
 
 struct Estimator::Impl {
@@ -95,10 +129,9 @@ struct Estimator::Impl {
   Result<Estimate> estimate(const Frame& frame, Tensors* tensors);
   Result<flow::Prediction> sample(const flow::SampleInput& input);
   [[nodiscard]] weights::PriorKind prior_kind() const;
-  [[nodiscard]] Estimate conclude(const std::vector<estimator::Hypothesis>& hypotheses,
-                                  const flow::Prediction& prediction, gate::Verdict verdict,
-                                  const std::vector<int>& assigned, const gate::DilatedMask& mask,
-                                  const Frame& frame) const;
+  [[nodiscard]] Returned decide(const estimator::Conditions& conditions,
+                                const flow::Prediction& prediction, const gate::Verdict& verdict,
+                                const std::vector<int>& assigned, const Frame& frame) const;
 };
 
 Result<std::unique_ptr<Estimator::Impl>> Estimator::Impl::create(const Config& config) {
@@ -141,32 +174,22 @@ weights::PriorKind Estimator::Impl::prior_kind() const {
   return weights->metadata.variant.prior_kind;
 }
 
-/// The caller's view of what the gate chose, Eq. (3.33).
-Estimate Estimator::Impl::conclude(const std::vector<estimator::Hypothesis>& hypotheses,
-                                   const flow::Prediction& prediction, gate::Verdict verdict,
-                                   const std::vector<int>& assigned, const gate::DilatedMask& mask,
-                                   const Frame& frame) const {
-  const auto at = [](int index) { return static_cast<std::size_t>(index); };
-  const std::size_t used = verdict.draw >= 0 ? at(assigned[at(verdict.draw)]) : 0;
-  const prior::Prior& prior = hypotheses[used].prior;
-
-  Estimate estimate;
-  estimate.source = verdict.source;
-  estimate.draw = verdict.draw;
-  estimate.nodes = verdict.draw >= 0 ? prediction.draws[at(verdict.draw)] : prior.nodes;
-  estimate.support = prior.support;
-  estimate.sigma_m = estimator::node_sigma(verdict.source, verdict.draw, prediction, prior);
-  estimate.mask_agreement = mask.agreement(estimate.nodes, frame.intrinsics);
-  estimate.prior_mask_agreement = verdict.prior_agreement;
-  estimate.confidence = confidence_of(hypotheses, used);
-  estimate.draws = std::move(verdict.draws);
-  for (std::size_t i = 0; i < hypotheses.size(); ++i) {
-    if (i == used) continue;
-    const auto& other = hypotheses[i];
-    estimate.alternatives.push_back({other.prior.nodes, static_cast<float>(other.score),
-                                     mask.agreement(other.prior.nodes, frame.intrinsics)});
+/// Eq. (3.33), or the calibrated gate's choice.
+Returned Estimator::Impl::decide(const estimator::Conditions& conditions,
+                                 const flow::Prediction& prediction, const gate::Verdict& verdict,
+                                 const std::vector<int>& assigned, const Frame& frame) const {
+  if (config.gate == GateChoice::kThesis) {
+    const int draw = verdict.draw;
+    const std::size_t used =
+        draw >= 0 ? static_cast<std::size_t>(assigned[static_cast<std::size_t>(draw)]) : 0;
+    return {draw, used, confidence_of(conditions.hypotheses, used)};
   }
-  return estimate;
+  const auto candidates = estimator::list_candidates(conditions.hypotheses, prediction, assigned,
+                                                     frame, conditions.paths.rope_width_px);
+  const gate::Choice choice = gate::choose_calibrated(candidates);
+  const gate::Candidate& chosen = candidates[choice.chosen];
+  return {chosen.draw, static_cast<std::size_t>(chosen.hypothesis),
+          static_cast<float>(choice.probability)};
 }
 
 Result<Estimate> Estimator::Impl::estimate(const Frame& frame, Tensors* tensors) {
@@ -202,7 +225,8 @@ Result<Estimate> Estimator::Impl::estimate(const Frame& frame, Tensors* tensors)
   const gate::DilatedMask mask(frame);
   auto verdict = gate::choose(prediction->draws, draw_prior_nodes, hypotheses.front().prior.nodes,
                               mask, frame.intrinsics);  // Eq. (3.30)-(3.33)
-  Estimate estimate = conclude(hypotheses, *prediction, std::move(verdict), assigned, mask, frame);
+  const Returned returned = decide(*conditions, *prediction, verdict, assigned, frame);
+  Estimate estimate = conclude(returned, hypotheses, *prediction, std::move(verdict), mask, frame);
   stage.lap(timings.gate_ms);
   total.lap(timings.total_ms);
   estimate.timings = std::move(timings);
