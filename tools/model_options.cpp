@@ -18,11 +18,13 @@ void add_prior_options(CLI::App& command, Config& config) {
           CLI::ignore_case))
       ->type_name("KIND");
   command
-      .add_option("--gate", config.gate,
-                  "Who decides between predictions and priors: thesis (Eq. 3.30-3.33), or "
-                  "calibrated (a fitted score)")
+      .add_option(
+          "--gate", config.gate,
+          "Who decides between predictions and priors: thesis (Eq. 3.30-3.33), calibrated (a "
+          "fitted score), or auto, as the weights were trained")
       ->transform(CLI::CheckedTransformer(
-          std::map<std::string, GateChoice>{{"thesis", GateChoice::kThesis},
+          std::map<std::string, GateChoice>{{"auto", GateChoice::kOfWeights},
+                                            {"thesis", GateChoice::kThesis},
                                             {"calibrated", GateChoice::kCalibrated}},
           CLI::ignore_case))
       ->type_name("RULE");

@@ -1,87 +1,67 @@
 #include "estimator/candidates.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <numeric>
 
-#include "geometry/camera.hpp"
 #include "geometry/polyline.hpp"
 
 namespace flowdlo::estimator {
 namespace {
 
-float mean_distance_m(const Centerline& a, const Centerline& b) {
-  float sum = 0;
-  for (std::size_t i = 0; i < kNodes; ++i) {
-    sum += (geometry::to_eigen(a[i]) - geometry::to_eigen(b[i])).norm();
-  }
-  return sum / kNodes;
+float length_off(const Centerline& nodes, double rope_length_m) {
+  if (!(rope_length_m > 0)) return 0;
+  const auto segments = geometry::segment_lengths(nodes);
+  const double length_m = std::accumulate(segments.begin(), segments.end(), 0.0);
+  return static_cast<float>(std::abs(std::log(std::max(1e-6, length_m) / rope_length_m)));
 }
 
-/// Mean distance of the draws of one hypothesis to their mean; 0 with a single one.
-float spread_m(const flow::Prediction& prediction, const std::vector<int>& assigned,
-               int hypothesis) {
-  std::vector<const Centerline*> draws;
-  for (std::size_t d = 0; d < prediction.draws.size(); ++d) {
-    if (assigned[d] == hypothesis && geometry::all_finite(prediction.draws[d])) {
-      draws.push_back(&prediction.draws[d]);
-    }
-  }
-  if (draws.size() < 2) return 0;
-  const float share = 1 / static_cast<float>(draws.size());
-  Centerline mean{};
-  for (std::size_t i = 0; i < kNodes; ++i) {
-    Eigen::Vector3f sum = Eigen::Vector3f::Zero();
-    for (const Centerline* draw : draws) sum += share * geometry::to_eigen((*draw)[i]);
-    mean[i] = geometry::to_point(sum);
-  }
-  float sum = 0;
-  for (const Centerline* draw : draws) sum += share * mean_distance_m(*draw, mean);
-  return sum;
-}
-
-gate::Candidate base(const Hypothesis& hypothesis, int index, double best) {
+gate::Candidate prior_candidate(const Hypothesis& hypothesis, int index, double best) {
   gate::Candidate candidate;
+  candidate.nodes = hypothesis.prior.nodes;
+  candidate.sigma_m = hypothesis.prior.sigma_m;
   candidate.hypothesis = index;
   candidate.behind = best - hypothesis.score;
-  candidate.longest_gap = hypothesis.evidence.longest_gap;
-  candidate.bridged = hypothesis.evidence.bridged;
   const auto& support = hypothesis.prior.support;
   candidate.supported =
       static_cast<float>(std::count(support.begin(), support.end(), std::uint8_t{1})) / kNodes;
+  const Evidence& evidence = hypothesis.evidence;
+  candidate.bridged = evidence.bridged;
+  candidate.longest_gap = evidence.longest_gap;
+  candidate.hidden_ends = evidence.hidden_ends;
+  candidate.buried_ends = evidence.buried_ends;
+  candidate.ring = evidence.ring ? 1 : 0;
   return candidate;
 }
 
 }  // namespace
 
-std::vector<gate::Candidate> list_candidates(const std::vector<Hypothesis>& hypotheses,
+std::vector<gate::Candidate> list_candidates(const Conditions& conditions,
                                              const flow::Prediction& prediction,
                                              const std::vector<int>& assigned, const Frame& frame,
-                                             float rope_width_px) {
-  gate::TubeView view(frame, rope_width_px);
-  const double best = hypotheses.front().score;
+                                             double rope_length_m) {
+  const auto& hypotheses = conditions.hypotheses;
+  gate::TubeView view(frame, conditions.paths.rope_width_px);
   std::vector<gate::Candidate> candidates;
-  for (std::size_t h = 0; h < hypotheses.size(); ++h) {
-    gate::Candidate candidate = base(hypotheses[h], static_cast<int>(h), best);
-    candidate.nodes = hypotheses[h].prior.nodes;
-    candidate.radius_m = view.radius_m(candidate.nodes);
+  const auto measure = [&](gate::Candidate& candidate) {
     candidate.tube = view.score(candidate.nodes, candidate.radius_m);
+    candidate.length_off = length_off(candidate.nodes, rope_length_m);
     candidates.push_back(candidate);
+  };
+  for (std::size_t h = 0; h < hypotheses.size(); ++h) {
+    auto candidate = prior_candidate(hypotheses[h], static_cast<int>(h), hypotheses.front().score);
+    candidate.radius_m = view.radius_m(candidate.nodes);
+    measure(candidate);
   }
   for (std::size_t d = 0; d < prediction.draws.size(); ++d) {
     if (!geometry::all_finite(prediction.draws[d])) continue;
-    const auto h = static_cast<std::size_t>(assigned[d]);
-    gate::Candidate candidate = base(hypotheses[h], assigned[d], best);
+    gate::Candidate candidate = candidates[static_cast<std::size_t>(assigned[d])];
     candidate.draw = static_cast<int>(d);
     candidate.nodes = prediction.draws[d];
-    candidate.radius_m = candidates[h].radius_m;
-    candidate.tube = view.score(candidate.nodes, candidate.radius_m);
-    candidate.moved_m = mean_distance_m(candidate.nodes, hypotheses[h].prior.nodes);
-    candidate.spread_m = spread_m(prediction, assigned, assigned[d]);
-    if (!prediction.sigma_m.empty()) {
-      for (const float sigma : prediction.sigma_m[d]) candidate.sigma_m += sigma / kNodes;
-    }
-    candidates.push_back(candidate);
+    if (!prediction.sigma_m.empty()) candidate.sigma_m = prediction.sigma_m[d];
+    measure(candidate);
   }
   return candidates;
 }

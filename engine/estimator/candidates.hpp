@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "estimator/hypotheses.hpp"
+#include "estimator/conditions.hpp"
 #include "flow/sampler.hpp"
 #include "flowdlo/frame.hpp"
 #include "gate/candidate.hpp"
@@ -11,9 +11,11 @@
 namespace flowdlo::estimator {
 
 /// First the prior of each hypothesis, then each finite draw; `assigned` is [D], the hypothesis
-/// that each draw was conditioned on. `rope_width_px` is path::Traversals'.
-[[nodiscard]] std::vector<gate::Candidate> list_candidates(
-    const std::vector<Hypothesis>& hypotheses, const flow::Prediction& prediction,
-    const std::vector<int>& assigned, const Frame& frame, float rope_width_px);
+/// that each draw was conditioned on. `rope_length_m` 0: unknown.
+[[nodiscard]] std::vector<gate::Candidate> list_candidates(const Conditions& conditions,
+                                                           const flow::Prediction& prediction,
+                                                           const std::vector<int>& assigned,
+                                                           const Frame& frame,
+                                                           double rope_length_m);
 
 }  // namespace flowdlo::estimator

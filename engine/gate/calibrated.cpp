@@ -4,74 +4,82 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
-#include <vector>
 
 namespace flowdlo::gate {
 namespace {
 
-// In the order of `candidate_features`; fitted by `flowdlo_gate_fit`.
-constexpr std::array<double, kCandidateFeatures> kScoreWeights{
-    0, 0, -2, -4, -2, -4, -1, -2, -0.5, -1, -0.5, -0.5, -1, -1, -4, -1, -1, -1, -1, -1};
-constexpr std::array<double, kProbabilityFeatures> kProbabilityWeights{
-    5, 0, -2, -4, -2, -4, -1, -2, -0.5, -1, -0.5, -0.5, -1, -2, -4, -2, -1, -1, -1, -1, 1};
+constexpr double kUnopposed = 99;
+constexpr double kLeastSigma_m = 1e-5;
+constexpr double kMostSigma_m = 10;
 
-constexpr double kApart = 2;    // rope diameters between candidates that lead elsewhere
-constexpr double kSettled = 3;  // score that settles it
-
-double mean_distance_m(const Centerline& a, const Centerline& b) {
-  double forward = 0;
-  double backward = 0;
-  for (std::size_t i = 0; i < kNodes; ++i) {
-    const auto distance = [&](const Point3& p, const Point3& q) {
-      return std::hypot(static_cast<double>(p.x) - static_cast<double>(q.x),
-                        static_cast<double>(p.y) - static_cast<double>(q.y),
-                        static_cast<double>(p.z) - static_cast<double>(q.z));
-    };
-    forward += distance(a[i], b[i]) / kNodes;
-    backward += distance(a[i], b[kNodes - 1 - i]) / kNodes;
-  }
-  return std::min(forward, backward);
-}
-
-bool elsewhere(const Candidate& a, const Candidate& b) {
-  const double apart_m = mean_distance_m(a.nodes, b.nodes);
-  return !(apart_m <= 2 * kApart * static_cast<double>(a.radius_m));
+template <std::size_t Size>
+double dot(const std::array<double, Size>& a, const std::array<double, Size>& b) {
+  return std::inner_product(a.begin(), a.end(), b.begin(), 0.0);
 }
 
 }  // namespace
 
-double candidate_score(const Candidate& candidate) {
-  const auto features = candidate_features(candidate);
-  const double score =
-      std::inner_product(features.begin(), features.end(), kScoreWeights.begin(), 0.0);
+std::vector<std::size_t> returned_by(std::span<const Candidate> candidates,
+                                     const GateWeights& weights) {
+  std::vector<std::size_t> returned;
+  std::vector<double> best;
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    if (candidates[i].draw < 0) {
+      returned.push_back(i);
+      best.push_back(weights.draw_margin);
+      continue;
+    }
+    const double score = dot(draw_features(candidates, i), weights.draw);
+    const auto hypothesis = static_cast<std::size_t>(candidates[i].hypothesis);
+    if (!(score > best[hypothesis])) continue;
+    best[hypothesis] = score;
+    returned[hypothesis] = i;
+  }
+  return returned;
+}
+
+double hypothesis_score(std::span<const Candidate> candidates, std::size_t index,
+                        const GateWeights& weights) {
+  const double score = dot(hypothesis_features(candidates, index), weights.hypothesis);
   return std::isfinite(score) ? score : std::numeric_limits<double>::lowest();
 }
 
-std::array<double, kProbabilityFeatures> probability_features(std::span<const Candidate> candidates,
-                                                              std::size_t chosen,
-                                                              std::span<const double> scores) {
-  double lead = kSettled;
-  for (std::size_t i = 0; i < candidates.size(); ++i) {
-    if (i == chosen || !elsewhere(candidates[chosen], candidates[i])) continue;
-    lead = std::min(lead, scores[chosen] - scores[i]);
-  }
-  std::array<double, kProbabilityFeatures> result{};
-  const auto features = candidate_features(candidates[chosen]);
-  std::copy(features.begin(), features.end(), result.begin());
-  result.back() = std::clamp(lead / kSettled, 0.0, 1.0);
-  return result;
+std::size_t preferred(std::span<const double> scores, double margin) {
+  const auto best =
+      static_cast<std::size_t>(std::max_element(scores.begin(), scores.end()) - scores.begin());
+  return scores[best] > scores[0] + margin ? best : 0;
 }
 
-Choice choose_calibrated(std::span<const Candidate> candidates) {
+double lead_elsewhere(std::span<const Candidate> candidates, std::span<const std::size_t> returned,
+                      std::span<const double> scores, std::size_t chosen) {
+  double lead = kUnopposed;
+  for (std::size_t h = 0; h < returned.size(); ++h) {
+    if (h == chosen || !runs_elsewhere(candidates[returned[chosen]], candidates[returned[h]])) {
+      continue;
+    }
+    lead = std::min(lead, scores[chosen] - scores[h]);
+  }
+  return lead;
+}
+
+Choice choose_calibrated(std::span<const Candidate> candidates, const GateWeights& weights) {
+  const auto returned = returned_by(candidates, weights);
   std::vector<double> scores;
-  for (const Candidate& candidate : candidates) scores.push_back(candidate_score(candidate));
+  for (const std::size_t index : returned) {
+    scores.push_back(hypothesis_score(candidates, index, weights));
+  }
+  const std::size_t hypothesis = preferred(scores, weights.hypothesis_margin);
+  const double lead = lead_elsewhere(candidates, returned, scores, hypothesis);
   Choice choice;
-  choice.chosen =
-      static_cast<std::size_t>(std::max_element(scores.begin(), scores.end()) - scores.begin());
-  const auto features = probability_features(candidates, choice.chosen, scores);
-  const double logit =
-      std::inner_product(features.begin(), features.end(), kProbabilityWeights.begin(), 0.0);
+  choice.chosen = returned[hypothesis];
+  const double logit = dot(closeness_features(candidates, choice.chosen, lead), weights.closeness);
   choice.probability = std::isfinite(logit) ? 1 / (1 + std::exp(-logit)) : 0;
+  for (std::size_t node = 0; node < kNodes; ++node) {
+    const double sigma_m = std::exp(
+        dot(sigma_features(candidates, choice.chosen, node, choice.probability), weights.sigma));
+    choice.sigma_m[node] = static_cast<float>(
+        std::isfinite(sigma_m) ? std::clamp(sigma_m, kLeastSigma_m, kMostSigma_m) : kMostSigma_m);
+  }
   return choice;
 }
 
