@@ -40,6 +40,7 @@ gate::Candidate prior_candidate(const Hypothesis& hypothesis, int index, double 
 
 std::vector<gate::Candidate> list_candidates(const Conditions& conditions,
                                              const flow::Prediction& prediction,
+                                             const std::vector<DrawReport>& reports,
                                              const std::vector<int>& assigned, const Frame& frame,
                                              double rope_length_m) {
   const auto& hypotheses = conditions.hypotheses;
@@ -56,7 +57,7 @@ std::vector<gate::Candidate> list_candidates(const Conditions& conditions,
     measure(candidate);
   }
   for (std::size_t d = 0; d < prediction.draws.size(); ++d) {
-    if (!geometry::all_finite(prediction.draws[d])) continue;
+    if (!reports[d].accepted) continue;
     gate::Candidate candidate = candidates[static_cast<std::size_t>(assigned[d])];
     candidate.draw = static_cast<int>(d);
     candidate.nodes = prediction.draws[d];

@@ -254,8 +254,8 @@ Result<Estimate> Estimator::Impl::estimate(const Frame& frame, Tensors* tensors)
   auto verdict = gate::choose(prediction->draws, draw_prior_nodes, hypotheses.front().prior.nodes,
                               mask, frame.intrinsics);  // Eq. (3.30)-(3.33)
   const Returned returned =
-      calibrated() ? by_score(estimator::list_candidates(*conditions, *prediction, assigned, frame,
-                                                         config.rope_length_m))
+      calibrated() ? by_score(estimator::list_candidates(*conditions, *prediction, verdict.draws,
+                                                         assigned, frame, config.rope_length_m))
                    : by_thesis(hypotheses, *prediction, verdict, assigned);
   Estimate estimate = conclude(returned, hypotheses, *prediction, std::move(verdict), mask, frame);
   stage.lap(timings.gate_ms);

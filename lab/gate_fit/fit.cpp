@@ -7,16 +7,18 @@
 
 #include "confidence/choice.hpp"
 #include "eval/metrics.hpp"
+#include "gate_fit/policy.hpp"
 #include "gate_fit/quantile.hpp"
 
 namespace flowdlo::lab {
 namespace {
 
 constexpr std::size_t kFolds = 5;
-constexpr double kMostError_m = 0.1;  // worse ones are all alike: a single scene must not decide
-constexpr double kDrawRidge = 1;
-constexpr double kHypothesisRidge = 1;
-constexpr double kMarginErrors = 0.25;
+constexpr double kMostError_m = 0.1;   // worse ones are all alike: a single scene must not decide
+constexpr double kBehindAtFirst = -6;  // the ranking decides until scenes say otherwise
+const double kDrawRidge = getenv("DR") ? atof(getenv("DR")) : 1;
+const double kHypothesisRidge = getenv("HR") ? atof(getenv("HR")) : 1;
+const double kMarginErrors = getenv("ME") ? atof(getenv("ME")) : 0.25;
 constexpr double kNever = 99;  // a margin that nothing passes
 constexpr double kClosenessRidge = 1;
 constexpr double kSigmaRidge = 1e-4;
@@ -48,30 +50,21 @@ std::vector<double> costs_cm(const std::vector<double>& errors_m) {
   return costs;
 }
 
-/// Two rows, of which the cheaper one is right, weighed by what the other costs more.
-void add_pair(const std::vector<double>& a, const std::vector<double>& b, double a_cost,
-              double b_cost, std::vector<Choice>& pairs) {
-  if (a_cost == b_cost) return;
-  Choice pair;
-  pair.rows = {a, b};
-  pair.right = a_cost < b_cost ? 0 : 1;
-  pair.weight = std::abs(a_cost - b_cost);
-  pairs.push_back(std::move(pair));
-}
-
 std::array<double, gate::kDrawFeatures> fit_draw(const std::vector<GateSample>& samples,
                                                  const Costs& costs, const Indices& use) {
-  const std::vector<double> prior(gate::kDrawFeatures, 0);
-  std::vector<Choice> pairs;
+  std::vector<Group> groups;
   for (const std::size_t s : use) {
     const auto& candidates = samples[s].candidates;
     for (std::size_t i = 0; i < candidates.size(); ++i) {
       if (candidates[i].draw < 0) continue;
-      add_pair(as_vector(gate::draw_features(candidates, i)), prior, costs[s][i],
-               costs[s][static_cast<std::size_t>(candidates[i].hypothesis)], pairs);
+      const auto prior = static_cast<std::size_t>(candidates[i].hypothesis);
+      groups.push_back({{as_vector(gate::draw_features(candidates, i)),
+                         std::vector<double>(gate::kDrawFeatures, 0)},
+                        {costs[s][i], costs[s][prior]}});
     }
   }
-  return as_array<gate::kDrawFeatures>(fit(pairs, gate::kDrawFeatures, kDrawRidge));
+  return as_array<gate::kDrawFeatures>(
+      fit_policy(groups, std::vector<double>(gate::kDrawFeatures, 0), kDrawRidge));
 }
 
 /// `returned` [samples, hypotheses].
@@ -79,20 +72,19 @@ std::array<double, gate::kHypothesisFeatures> fit_hypothesis(const std::vector<G
                                                              const Costs& costs,
                                                              const std::vector<Indices>& returned,
                                                              const Indices& use) {
-  std::vector<Choice> pairs;
+  std::vector<Group> groups;
   for (const std::size_t s : use) {
-    std::vector<std::vector<double>> rows;
+    if (returned[s].size() < 2) continue;
+    Group group;
     for (const std::size_t i : returned[s]) {
-      rows.push_back(as_vector(gate::hypothesis_features(samples[s].candidates, i)));
+      group.rows.push_back(as_vector(gate::hypothesis_features(samples[s].candidates, i)));
+      group.costs.push_back(costs[s][i]);
     }
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-      for (std::size_t k = 0; k < i; ++k) {
-        add_pair(rows[i], rows[k], costs[s][returned[s][i]], costs[s][returned[s][k]], pairs);
-      }
-    }
+    groups.push_back(std::move(group));
   }
-  return as_array<gate::kHypothesisFeatures>(
-      fit(pairs, gate::kHypothesisFeatures, kHypothesisRidge));
+  std::vector<double> start(gate::kHypothesisFeatures, 0);
+  start.front() = kBehindAtFirst;
+  return as_array<gate::kHypothesisFeatures>(fit_policy(groups, start, kHypothesisRidge));
 }
 
 /// A score that asks for a change, and what the change costs.
@@ -237,7 +229,20 @@ void Fitting::choose_hypotheses() {
           {scores[s][best] - scores[s][0], costs[s][returned[s][best]] - costs[s][returned[s][0]]});
     }
   });
-  weights.hypothesis_margin = fit_margin(std::move(changes));
+  weights.hypothesis_margin = fit_margin(changes);
+  {
+    double sum = 0, raw = 0, ch = 0, chm = 0;
+    for (std::size_t s = 0; s < samples.size(); ++s) {
+      sum += costs[s][0];
+      raw += costs[s][returned[s][0]];
+      ch += costs[s][returned[s][gate::preferred(scores[s], 0)]];
+      chm += costs[s][returned[s][gate::preferred(scores[s], weights.hypothesis_margin)]];
+    }
+    double n = samples.size();
+    fprintf(stderr,
+            "OOF capped: prior %.4f returned0 %.4f chosen no margin %.4f margin(%.3f) %.4f\n",
+            sum / n, raw / n, ch / n, weights.hypothesis_margin, chm / n);
+  }
   for (std::size_t s = 0; s < samples.size(); ++s) {
     const std::size_t hypothesis = gate::preferred(scores[s], weights.hypothesis_margin);
     outcomes[s] = {returned[s][hypothesis],

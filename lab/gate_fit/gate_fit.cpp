@@ -29,6 +29,7 @@ using Samples = std::vector<lab::GateSample>;
 
 constexpr std::uint64_t kFirstUntrained = 1000000;  // training takes its scenes from the front
 constexpr int kLeastScenes = 50;
+constexpr int kLengthKnownEvery = 4;
 constexpr int kPixels = 1280 * 720;
 
 struct Options {
@@ -44,6 +45,12 @@ struct Options {
   int steps = 10;
   bool quiet = false;
 };
+
+/// Every so many training frames come with the rope's length, so that the fit learns what it is
+/// worth.
+double known_length_m(const Options& options, int scene, double length_m) {
+  return options.part == "training" && scene % kLengthKnownEvery == 0 ? length_m : 0;
+}
 
 Result<Samples> measured(const Options& options, int done) {
   auto loaded = flowdlo::weights::load(options.weights);
