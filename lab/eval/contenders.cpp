@@ -83,21 +83,42 @@ Result<Contenders> Contenders::create(const Config& config, const ContenderConfi
     one.weights = file;
     one.prior = PriorChoice::kOfWeights;
     const std::string name = file.stem().string();
-    std::vector<int> sweep{config.euler_steps};
-    if (is_swept(name)) sweep.insert(sweep.end(), std::begin(kSweep), std::end(kSweep));
-    std::sort(sweep.begin(), sweep.end());
-    sweep.erase(std::unique(sweep.begin(), sweep.end()), sweep.end());
-    for (const int steps : sweep) {
-      one.euler_steps = steps;
-      auto estimator = Estimator::create(one);
-      if (!estimator) return estimator.error();
-      Model model{{}, *std::move(estimator)};
-      if (steps == config.euler_steps) model.methods.push_back(name);
-      if (is_swept(name)) model.methods.push_back(swept(name, steps));
-      result.models_.push_back(std::move(model));
-    }
+    if (auto added = result.add_model(one, name, is_swept(name)); !added) return added.error();
+    if (name != "full") continue;
+    if (auto added = result.add_gates(one, "full."); !added) return added.error();
   }
+  if (auto added = result.add_gates(config, ""); !added) return added.error();
   return result;
+}
+
+Result<void> Contenders::add_model(const Config& config, const std::string& name, bool sweeps) {
+  std::vector<int> steps_of{config.euler_steps};
+  if (sweeps) steps_of.insert(steps_of.end(), std::begin(kSweep), std::end(kSweep));
+  std::sort(steps_of.begin(), steps_of.end());
+  steps_of.erase(std::unique(steps_of.begin(), steps_of.end()), steps_of.end());
+  Config one = config;
+  for (const int steps : steps_of) {
+    one.euler_steps = steps;
+    auto estimator = Estimator::create(one);
+    if (!estimator) return estimator.error();
+    Model model{{}, {}, *std::move(estimator)};
+    if (steps == config.euler_steps) model.methods.push_back(name);
+    if (sweeps) model.methods.push_back(swept(name, steps));
+    models_.push_back(std::move(model));
+  }
+  return {};
+}
+
+Result<void> Contenders::add_gates(const Config& config, const std::string& part) {
+  Config one = config;
+  for (const GateChoice gate : {GateChoice::kThesis, GateChoice::kCalibrated}) {
+    one.gate = gate;
+    auto estimator = Estimator::create(one);
+    if (!estimator) return estimator.error();
+    const char* name = gate == GateChoice::kThesis ? "gate-thesis" : "gate-calibrated";
+    models_.push_back({{}, part + name, *std::move(estimator)});
+  }
+  return {};
 }
 
 void Contenders::run(const FrameFolder& folder, Trial& trial) {
@@ -115,6 +136,9 @@ void Contenders::run(const FrameFolder& folder, Trial& trial) {
   for (Model& model : models_) {
     Tensors tensors;
     const auto estimate = model.estimator.estimate(folder.frame(), tensors);
+    if (estimate && folder.truth && !model.returned.empty()) {
+      trial.methods[model.returned] = mean_of({score(estimate->nodes, *folder.truth)});
+    }
     for (const std::string& method : model.methods) {
       if (!estimate) {
         trial.accounts[method].failure = name_of(estimate.error().code);

@@ -17,7 +17,8 @@ namespace flowdlo::eval {
 struct ContenderConfig {
   std::vector<std::string> baselines;  ///< names, or "all"
   /// Folder of NAME.fdw; empty: none. Those named full, no-points, direct and residual are the
-  /// columns of the thesis' tables, and full and direct run at 1, 4, 10 and 20 steps.
+  /// columns of the thesis' tables, and full and direct run at 1, 4, 10 and 20 steps. With models,
+  /// the evaluated one and full return by either gate, too: gate-thesis, full.gate-calibrated, ...
   std::filesystem::path models;
 };
 
@@ -46,8 +47,12 @@ class Contenders {
  private:
   struct Model {
     std::vector<std::string> methods;  ///< a model at the steps of the run has two names
+    std::string returned;              ///< the method of its estimates; empty: not asked for
     Estimator estimator;
   };
+
+  Result<void> add_model(const Config& config, const std::string& name, bool sweeps);
+  Result<void> add_gates(const Config& config, const std::string& part);
 
   std::vector<const baselines::Baseline*> baselines_;
   std::vector<Model> models_;

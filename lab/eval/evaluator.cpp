@@ -71,7 +71,7 @@ Trial Evaluator::run(const std::filesystem::path& path, const std::string& name)
 }
 
 Trial Evaluator::run(const Result<FrameFolder>& folder, const Result<SceneInfo>& scene,
-                     const std::string& name) {
+                     const std::string& name, const std::filesystem::path& place) {
   Trial trial;
   trial.name = name;
   trial.folder = place;

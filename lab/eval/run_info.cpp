@@ -26,6 +26,18 @@ const char* name_of(PriorChoice prior) {
   return "auto";
 }
 
+const char* name_of(GateChoice gate) {
+  switch (gate) {
+    case GateChoice::kThesis:
+      return "thesis";
+    case GateChoice::kCalibrated:
+      return "calibrated";
+    case GateChoice::kOfWeights:
+      break;
+  }
+  return "auto";
+}
+
 std::string value_of(const std::map<std::string, std::string>& settings, const std::string& name) {
   const auto found = settings.find(name);
   return found == settings.end() ? "nothing" : found->second;
@@ -55,6 +67,7 @@ std::map<std::string, std::string> settings_of(const Config& config,
           {"steps", fmt::format("{}", config.euler_steps)},
           {"seed", fmt::format("{}", config.seed)},
           {"prior", name_of(config.prior)},
+          {"gate", name_of(config.gate)},
           {"rope_length_m", fmt::format("{}", config.rope_length_m)}};
 }
 
