@@ -99,8 +99,14 @@ std::string safe(const std::string& text) {
 }  // namespace
 
 std::string scenes_json(std::span<const eval::Trial> trials) {
-  json page{{"unit_m", kUnit_m}, {"sets", json::array()}, {"colors", json::object()}};
-  for (const auto& [method, color] : kColors) page["colors"][method] = color;
+  json page{{"unit_m", kUnit_m},
+            {"sets", json::array()},
+            {"colors", json::object()},
+            {"order", json::array()}};
+  for (const auto& [method, color] : kColors) {
+    page["colors"][method] = color;
+    page["order"].push_back(method);
+  }
   for (const eval::DataSet& set : eval::data_sets_of(trials)) {
     json scenes = json::array();
     for (const eval::Trial* trial : set.trials) {

@@ -1,6 +1,6 @@
 // The 3D view of report.html: curves of one scene in a box that turns with the mouse.
 // Built into viewer.min.js by `npm ci && npm run build`; the page's data come as `window.flowdlo`:
-// {unit_m, colors: {method: "#rrggbb"}, sets: [{name, scenes: [{name, text, image, curves:
+// {unit_m, colors: {method: "#rrggbb"}, order: [method], sets: [{name, scenes: [{name, text, image, curves:
 // {method: [[x, y, z, x, y, z, ...], ...]}}]}]}, whole numbers of unit_m, camera frame.
 import {
   AmbientLight,
@@ -41,9 +41,15 @@ function points(line) {
   return result;
 }
 
-function tube(line, color, radius) {
+// The truth is translucent: what is right lies inside it.
+function tube(line, color, radius, solid) {
   const nodes = points(line);
-  const material = new MeshLambertMaterial({ color: new Color(color) });
+  const material = new MeshLambertMaterial({
+    color: new Color(color),
+    transparent: !solid,
+    opacity: solid ? 1 : 0.6,
+    depthWrite: solid,
+  });
   const group = new Group();
   group.add(new Mesh(new TubeGeometry(new CatmullRomCurve3(nodes), 252, radius, 8), material));
   const start = new Mesh(new SphereGeometry(3 * radius, 16, 12), material);
@@ -89,7 +95,8 @@ function draw(fit) {
   for (const [method, lines] of Object.entries(curves)) {
     if (!shown.has(method)) continue;
     const radius = reach * (method === "truth" ? 0.0055 : 0.0035);
-    for (const line of lines) scene.add(tube(line, data.colors[method] || "#777777", radius));
+    const color = data.colors[method] || "#777777";
+    for (const line of lines) scene.add(tube(line, color, radius, method !== "truth"));
   }
   if (fit) {
     controls.target.copy(middle);
@@ -105,7 +112,9 @@ function draw(fit) {
 function legend() {
   const list = document.getElementById("legend");
   list.replaceChildren();
-  for (const method of Object.keys(current().curves)) {
+  const known = data.order.filter((method) => method in current().curves);
+  const others = Object.keys(current().curves).filter((method) => !data.order.includes(method));
+  for (const method of [...known, ...others]) {
     const label = document.createElement("label");
     const check = document.createElement("input");
     check.type = "checkbox";
