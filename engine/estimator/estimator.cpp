@@ -258,6 +258,7 @@ Result<Estimate> Estimator::Impl::estimate(const Frame& frame, Tensors* tensors)
                                                          assigned, frame, config.rope_length_m))
                    : by_thesis(hypotheses, *prediction, verdict, assigned);
   Estimate estimate = conclude(returned, hypotheses, *prediction, std::move(verdict), mask, frame);
+  estimate.calibrated = calibrated();
   stage.lap(timings.gate_ms);
   total.lap(timings.total_ms);
   estimate.timings = std::move(timings);

@@ -51,6 +51,7 @@ struct Estimate {
   std::array<float, kNodes> sigma_m{};
   Source source = Source::kPrior;  ///< which branch of Eq. (3.33)
   int draw = -1;                   ///< index of the returned draw; -1: the prior
+  bool calibrated = false;         ///< the calibrated gate decided, not that of the thesis
   /// In [0, 1], whichever end comes first. Calibrated gate: the probability that the mean distance
   /// of `nodes` from the true ones, Eq. (4.1), is below 1 cm. Thesis gate: that `nodes` visit the
   /// rope in order and leave no loop out. Logistic models fitted on synthetic scenes: below 0.5

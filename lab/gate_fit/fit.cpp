@@ -16,9 +16,9 @@ namespace {
 constexpr std::size_t kFolds = 5;
 constexpr double kMostError_m = 0.1;   // worse ones are all alike: a single scene must not decide
 constexpr double kBehindAtFirst = -6;  // the ranking decides until scenes say otherwise
-const double kDrawRidge = getenv("DR") ? atof(getenv("DR")) : 1;
-const double kHypothesisRidge = getenv("HR") ? atof(getenv("HR")) : 1;
-const double kMarginErrors = getenv("ME") ? atof(getenv("ME")) : 0.25;
+constexpr double kDrawRidge = 0.5;
+constexpr double kHypothesisRidge = 0.5;
+constexpr double kMarginErrors = 0.25;
 constexpr double kNever = 99;  // a margin that nothing passes
 constexpr double kClosenessRidge = 1;
 constexpr double kSigmaRidge = 1e-4;
@@ -138,11 +138,15 @@ std::array<double, gate::kClosenessFeatures> fit_closeness(const std::vector<Gat
       fit(choices, gate::kClosenessFeatures, kClosenessRidge));
 }
 
+bool asked_the_model(const GateSample& sample) { return sample.candidates.back().draw >= 0; }
+
 std::array<double, gate::kSigmaFeatures> fit_sigma(const std::vector<GateSample>& samples,
                                                    const std::vector<Outcome>& outcomes,
                                                    const std::vector<double>& probabilities) {
   std::vector<ScaleRow> rows;
+  const bool any = std::any_of(samples.begin(), samples.end(), asked_the_model);
   for (std::size_t s = 0; s < samples.size(); ++s) {
+    if (any && !asked_the_model(samples[s])) continue;
     const auto& candidates = samples[s].candidates;
     const auto off_m = node_errors_m(candidates[outcomes[s].chosen].nodes, samples[s].truth);
     for (std::size_t node = 0; node < kNodes; ++node) {
@@ -230,19 +234,6 @@ void Fitting::choose_hypotheses() {
     }
   });
   weights.hypothesis_margin = fit_margin(changes);
-  {
-    double sum = 0, raw = 0, ch = 0, chm = 0;
-    for (std::size_t s = 0; s < samples.size(); ++s) {
-      sum += costs[s][0];
-      raw += costs[s][returned[s][0]];
-      ch += costs[s][returned[s][gate::preferred(scores[s], 0)]];
-      chm += costs[s][returned[s][gate::preferred(scores[s], weights.hypothesis_margin)]];
-    }
-    double n = samples.size();
-    fprintf(stderr,
-            "OOF capped: prior %.4f returned0 %.4f chosen no margin %.4f margin(%.3f) %.4f\n",
-            sum / n, raw / n, ch / n, weights.hypothesis_margin, chm / n);
-  }
   for (std::size_t s = 0; s < samples.size(); ++s) {
     const std::size_t hypothesis = gate::preferred(scores[s], weights.hypothesis_margin);
     outcomes[s] = {returned[s][hypothesis],

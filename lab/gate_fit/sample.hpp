@@ -22,10 +22,10 @@ struct GateSample {
   std::vector<gate::Candidate> candidates;  ///< as estimator::list_candidates lists them
 };
 
-/// Nothing where the engine finds no path or the device fails. `rope_length_m` 0:
-/// unknown.
+/// Nothing where the engine finds no path or the device fails. Priors alone where `sampler` is
+/// null. `rope_length_m` 0: unknown.
 [[nodiscard]] std::optional<GateSample> measure(const synth::SyntheticFrame& scene,
-                                                flow::Sampler& sampler, int draws,
+                                                flow::Sampler* sampler, int draws,
                                                 weights::PriorKind kind, double rope_length_m);
 
 }  // namespace flowdlo::lab
