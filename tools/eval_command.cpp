@@ -15,6 +15,7 @@
 
 #include "build_sum.hpp"
 #include "estimator/weights_location.hpp"
+#include "eval/contenders.hpp"
 #include "eval/error_overlay.hpp"
 #include "eval/evaluator.hpp"
 #include "eval/job_loop.hpp"
@@ -22,6 +23,7 @@
 #include "eval/plots.hpp"
 #include "eval/row_file.hpp"
 #include "eval/tables.hpp"
+#include "eval_outputs.hpp"
 #include "flowdlo/frame_folder.hpp"
 #include "flowdlo/weights.hpp"
 #include "frame/staged_files.hpp"
@@ -38,8 +40,10 @@ namespace fs = std::filesystem;
 struct EvalOptions {
   std::vector<fs::path> frames;
   fs::path out;
+  fs::path results;
   Config config;
   RecordingArguments recordings;
+  eval::ContenderConfig contenders;
   int jobs = 1;
   std::string shard = "1/1";
   int worst = 0;
@@ -49,6 +53,7 @@ struct EvalOptions {
 struct MergeOptions {
   std::vector<fs::path> sources;
   fs::path out;
+  fs::path results;
   bool quiet = false;
 };
 
@@ -84,6 +89,9 @@ Result<eval::RunInfo> describe(const EvalOptions& options, const std::vector<Fra
   eval::RunInfo info;
   info.settings = eval::settings_of(options.config, *sum);
   info.settings["build"] = build_sum();
+  const auto others = eval::settings_of(options.contenders);
+  if (!others) return others.error();
+  info.settings.insert(others->begin(), others->end());
   info.weights = options.config.weights.string();
   info.device = device;
   bool recorded = false;
@@ -105,7 +113,7 @@ Result<std::vector<eval::Evaluator>> create_evaluators(const EvalOptions& option
   if (config.threads == 0 && jobs > 1) config.threads = std::max(1, cores / jobs);
   std::vector<eval::Evaluator> evaluators;
   for (int i = 0; i < jobs; ++i) {
-    auto evaluator = eval::Evaluator::create(config);
+    auto evaluator = eval::Evaluator::create(config, options.contenders);
     if (!evaluator) return evaluator.error();
     evaluators.push_back(*std::move(evaluator));
   }
@@ -123,7 +131,8 @@ Result<void> run_rows(const EvalOptions& options, const std::vector<FrameEntry>&
   for (eval::Evaluator& evaluator : evaluators) {
     workers.emplace_back([&](std::size_t row) {
       const FrameEntry& entry = frames[row];
-      return entry.read ? evaluator.run(entry.read(), eval::SceneInfo{}, entry.name)
+      return entry.read ? evaluator.run(entry.read(), eval::SceneInfo{}, entry.folder / entry.name,
+                                        entry.name)
                         : evaluator.run(entry.folder, entry.name);
     });
   }
@@ -177,10 +186,14 @@ Result<void> draw_worst(const EvalOptions& options, const std::vector<FrameEntry
 }
 
 /// Tables and plots of everything that `merged` holds: of one run or of many parts, the same bytes.
-ExitCode report(const fs::path& out, const eval::MergedRows& merged, bool quiet) {
+ExitCode report(const fs::path& out, const fs::path& results, const eval::MergedRows& merged,
+                bool quiet) {
   const std::string tables =
       eval::heading(merged.info, merged.devices) + eval::tables_markdown(merged.trials);
   if (const auto saved = save(out, tables, merged.trials); !saved) {
+    return complain(saved.error(), ExitCode::kFailed);
+  }
+  if (const auto saved = save_chapter(out, results, merged); !saved) {
     return complain(saved.error(), ExitCode::kFailed);
   }
   if (!quiet) fmt::print("{}\n{}", tables, eval::timing_sentence(merged.trials));
@@ -205,7 +218,7 @@ ExitCode finish(const EvalOptions& options, const std::vector<FrameEntry>& frame
       return complain(drawn.error(), ExitCode::kFailed);
     }
   }
-  return report(options.out, *merged, options.quiet);
+  return report(options.out, options.results, *merged, options.quiet);
 }
 
 ExitCode run(const EvalOptions& options) {
@@ -231,16 +244,17 @@ ExitCode run_merge(const MergeOptions& options) {
   const auto merged = eval::merge_rows(options.sources);
   if (!merged) return complain(merged.error());
   if (const auto made = make_out(options.out); !made) return complain(made.error());
-  return report(options.out, *merged, options.quiet);
+  return report(options.out, options.results, *merged, options.quiet);
 }
 
 CLI::App* add_merge_command(CLI::App& eval_command, MergeOptions& options) {
   auto* command = eval_command.add_subcommand("merge", "Rows of shards in, tables and plots out");
   command->add_option("DIR", options.sources, "The --out folders of the shards, or row files")
       ->required();
-  command->add_option("--out", options.out, "For tables.md, rows.csv, timings.csv and the plots")
+  command->add_option("--out", options.out, "For tables, rows, figures and report.html")
       ->required()
       ->type_name("DIR");
+  add_results_option(*command, options.results);
   command->add_flag("--quiet", options.quiet, "Print errors only");
   return command;
 }
@@ -252,9 +266,11 @@ void add_eval_command(CLI::App& app, ExitCode& exit_code) {
   auto* command = app.add_subcommand("eval", "Frames with truth in, tables and plots out");
   command->add_option("DATASET", options->frames,
                       "Folders of frame folders, frame folders, or ROS 1 bags");
-  command->add_option("--out", options->out, "For tables.md, rows.csv, timings.csv and the plots")
+  command->add_option("--out", options->out, "For tables, rows, figures and report.html")
       ->type_name("DIR");
   add_model_options(*command, options->config);
+  add_contender_options(*command, options->contenders);
+  add_results_option(*command, options->results);
   command->add_option("--jobs", options->jobs, "Frames at a time; the rows do not depend on it")
       ->capture_default_str()
       ->check(CLI::Range(1, 1024))

@@ -24,7 +24,8 @@ class EvalShards : public testing::Test {
  protected:
   void SetUp() override {
     for (int i = 0; i < kScenes; ++i) {
-      const auto scene = lab::make_scene(i % 2 == 0 ? lab::Kind::kSimple : lab::Kind::kOneCrossing, 1 + i);
+      const auto scene =
+          lab::make_scene(i % 2 == 0 ? lab::Kind::kSimple : lab::Kind::kOneCrossing, 1 + i);
       const auto folder = path("scenes") / ("scene" + std::to_string(i));
       fs::create_directories(folder);
       ASSERT_TRUE(save_frame_folder(folder, scene.frame(), 0.0001, &scene.truth));

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "eval/draws.hpp"
 #include "eval/tables.hpp"
 #include "eval/trials.hpp"
 
@@ -22,11 +23,16 @@ Trial full_trial() {
   trial.mask_agreement = 1.0 / 3;
   trial.total_ms = 117.3;
   trial.sigma = {2.0 / 3, 0.95};
+  trial.folder = "sets/wide/one";
+  trial.data_set = "wide";
+  trial.accounts["mbest"] = {"mask holds no line", false, 1, 0, 0};
+  trial.accounts["full"] = {"", true, 4, 3, 2.0 / 3};
   for (std::size_t i = 0; i < kNodes; ++i) {
     const float at = static_cast<float>(i);
     trial.nodes[i] = {at / 3, std::sin(at), 1 / (at + 1)};
     trial.truth[i] = {at / 7, std::cos(at), 1 / (at + 3)};
   }
+  trial.curves["full"] = {kept(trial.nodes), kept(trial.truth)};
   return trial;
 }
 
@@ -42,6 +48,11 @@ TEST(TrialJson, ComesBackToTheLastBit) {
   EXPECT_EQ(row->trial.total_ms, trial.total_ms);
   EXPECT_EQ(row->trial.scene.defects, trial.scene.defects);
   EXPECT_EQ(row->trial.source, trial.source);
+  EXPECT_EQ(row->trial.folder, trial.folder);
+  EXPECT_EQ(row->trial.data_set, trial.data_set);
+  EXPECT_EQ(row->trial.curves, trial.curves);
+  EXPECT_EQ(row->trial.accounts.at("mbest").failure, "mask holds no line");
+  EXPECT_EQ(row->trial.accounts.at("full").mask_agreement, 2.0 / 3);
   EXPECT_EQ(row_json(*row), row_json({17, trial}));
 }
 
