@@ -30,6 +30,7 @@
 #include "frame_list.hpp"
 #include "model_options.hpp"
 #include "progress_bar.hpp"
+#include "recorded_frame.hpp"
 #include "recording_arguments.hpp"
 
 namespace flowdlo::tools {
@@ -42,8 +43,8 @@ struct EvalOptions {
   fs::path out;
   fs::path results;
   Config config;
-  eval::ContenderConfig contenders;
   RecordingArguments recordings;
+  eval::ContenderConfig contenders;
   int jobs = 1;
   std::string shard = "1/1";
   int worst = 0;
@@ -131,8 +132,9 @@ Result<void> run_rows(const EvalOptions& options, const std::vector<FrameEntry>&
   for (eval::Evaluator& evaluator : evaluators) {
     workers.emplace_back([&](std::size_t row) {
       const FrameEntry& entry = frames[row];
-      return entry.read ? evaluator.run(entry.read(), eval::SceneInfo{}, entry.name, entry.folder)
-                        : evaluator.run(entry.folder, entry.name);
+      if (!entry.read) return evaluator.run(entry.folder, entry.name);
+      return evaluator.run(keep_recorded_frame(options.out, entry), eval::SceneInfo{},
+                           recorded_frame_folder(options.out, entry), entry.name);
     });
   }
   ProgressBar progress("eval", static_cast<int>(file.lacking().size()), options.quiet);

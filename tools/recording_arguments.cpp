@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <optional>
 
+#include "progress_bar.hpp"
 #include "recording/recording.hpp"
 
 namespace flowdlo::tools {
@@ -89,7 +91,13 @@ void add_recording_options(CLI::App& command, RecordingArguments& arguments) {
 OpenRecording recording_opener(const RecordingArguments& arguments, bool quiet) {
   return [options = resolved(arguments),
           quiet](const std::filesystem::path& file) -> Result<std::vector<FrameEntry>> {
-    const auto opened = recording::Recording::open(file, options);
+    std::optional<ProgressBar> bar;
+    const auto progress = [&](std::size_t, std::size_t total) {
+      if (!bar) bar.emplace("reading stamps", static_cast<int>(total), quiet);
+      bar->advance();
+    };
+    const auto opened = recording::Recording::open(file, options, progress);
+    bar.reset();
     if (!opened) return opened.error();
     const auto recording = *opened;
     if (!quiet) fmt::print(stderr, "{}\n", recording->summary());

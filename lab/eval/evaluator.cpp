@@ -67,16 +67,15 @@ Result<Evaluator> Evaluator::create(const Config& config, const ContenderConfig&
 }
 
 Trial Evaluator::run(const std::filesystem::path& path, const std::string& name) {
-  return run(load_frame_folder(path), read_scene_info(path), name, path);
+  return run(load_frame_folder(path), read_scene_info(path), path, name);
 }
 
 Trial Evaluator::run(const Result<FrameFolder>& folder, const Result<SceneInfo>& scene,
-                     const std::string& name, const std::filesystem::path& place) {
+                     const std::filesystem::path& path, const std::string& name) {
   Trial trial;
   trial.name = name;
-  trial.folder = place;
-  const auto whole = std::filesystem::absolute(place).lexically_normal();
-  trial.data_set = whole.extension() == ".bag" ? whole.stem() : whole.parent_path().filename();
+  trial.folder = path;
+  trial.data_set = std::filesystem::absolute(path).lexically_normal().parent_path().filename();
   if (scene) trial.scene = *scene;
   if (!folder || !scene) {
     trial.failure = folder ? scene.error().message : folder.error().message;

@@ -22,9 +22,9 @@ class Evaluator {
   /// Never fails: what goes wrong with a frame stands in Trial::failure and costs its row only.
   [[nodiscard]] Trial run(const std::filesystem::path& folder, const std::string& name);
 
-  /// The same, of a frame that comes from elsewhere: `place` is the recording that holds it.
+  /// The same, of a frame that comes from elsewhere; `path` counts as its place in its data set.
   [[nodiscard]] Trial run(const Result<FrameFolder>& frame, const Result<SceneInfo>& scene,
-                          const std::string& name, const std::filesystem::path& place);
+                          const std::filesystem::path& path, const std::string& name);
 
   [[nodiscard]] const std::string& device() const { return estimator_.device(); }
 

@@ -57,11 +57,17 @@ TEST_F(BagTest, StampsAreThoseOfTheHeaders) {
   write(Packing::kLz4);
   const auto bag = Bag::open(file());
   ASSERT_TRUE(bag);
-  const auto stamps = bag->stamps("/image");
+  std::size_t read = 0;
+  const auto stamps = bag->stamps({"/image", "/info"}, [&](std::size_t done, std::size_t total) {
+    EXPECT_EQ(done, ++read);
+    EXPECT_EQ(total, 80U);
+  });
   ASSERT_TRUE(stamps);
-  ASSERT_EQ(stamps->size(), 40U);
-  EXPECT_EQ(stamps->front(), kStart_ns);
-  EXPECT_EQ(stamps->back(), kStart_ns + 39 * kMillisecond_ns);
+  EXPECT_EQ(read, 80U);
+  const auto& images = stamps->at("/image");
+  ASSERT_EQ(images.size(), 40U);
+  EXPECT_EQ(images.front(), kStart_ns);
+  EXPECT_EQ(images.back(), kStart_ns + 39 * kMillisecond_ns);
 }
 
 TEST_F(BagTest, MessageOfAnotherTypeIsRefused) {
@@ -88,7 +94,7 @@ TEST_F(BagTest, CutOffBagIsToldFromOneThatWasNeverClosed) {
   const std::string whole = write(Packing::kPlain);
   for (const std::size_t kept : {std::size_t{4000}, whole.size() / 2, whole.size() - 5}) {
     write_text(file(), whole.substr(0, kept));
-    EXPECT_THAT(refusal(), HasSubstr("was it cut off?")) << kept;
+    EXPECT_THAT(refusal(), HasSubstr("(cut off?)")) << kept;
   }
   std::string open = whole;
   const auto field = open.find("index_pos=");
@@ -114,7 +120,7 @@ TEST_F(BagTest, DamageNeverEndsTheProcess) {
       const auto bag = Bag::open(file());
       if (!bag) continue;
       for (const Topic& topic : bag->topics()) {
-        (void)static_cast<bool>(bag->stamps(topic.name));
+        (void)static_cast<bool>(bag->stamps({topic.name}, {}));
         for (std::size_t i = 0; i < topic.messages; ++i) {
           (void)static_cast<bool>(bag->image(topic.name, i));
           (void)static_cast<bool>(bag->camera(topic.name, i));

@@ -54,6 +54,12 @@ TEST_F(RecordingCommand, EvaluatesAvailabilityAndConsistency) {
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_THAT(outcome.out, HasSubstr("3 of 3 frames have an estimate, 0 have a truth"));
   EXPECT_THAT(read_text(out / "rows.csv"), HasSubstr("\ntake1_000002,"));
+
+  // The frames lie beside the report as folders, for its pictures: the same depths, the same mask.
+  const auto kept = load_frame_folder(out / "frames" / "take1" / "take1_000002");
+  ASSERT_TRUE(kept) << kept.error().message;
+  EXPECT_EQ(kept->mask, scene_.image.mask);
+  EXPECT_TRUE(fs::exists(out / "figures")) << "overlays on frames without truth";
 }
 
 TEST_F(RecordingCommand, ShardsOfOtherThresholdsAreNotMixed) {

@@ -219,6 +219,17 @@ TEST_F(RecordingTest, NeedsOneWayToTheMask) {
   EXPECT_THAT(refusal(options), HasSubstr("got two"));
 }
 
+TEST_F(RecordingTest, OptionsThatMeanNothingAreAllNamed) {
+  auto options = with_hsv();
+  options.hsv = {180, 100, 50, 130, 50, 255};
+  options.sync_tolerance_ms = std::nan("");
+  options.from_s = 3;
+  options.to_s = 2;
+  EXPECT_THAT(refusal(options),
+              AllOf(HasSubstr("got 180,100,50,130,50,255"), HasSubstr("--sync-tolerance of 0 ms"),
+                    HasSubstr("--from before --to, got 3 s and 2 s")));
+}
+
 TEST_F(RecordingTest, BadImageCostsItsFrameOnly) {
   const DrawnImages images(scene_);
   {

@@ -104,6 +104,18 @@ struct Bag::Impl {
       return bad(path, fmt::format("message {} of {}: {}", index, topic, fault.what()));
     }
   }
+
+  [[nodiscard]] Result<Stamp> stamp(const std::string& topic, std::size_t index,
+                                    ByteStream& stream) const {
+    return read(topic, index, [&](const rosbag::MessageInstance& message) -> Result<Stamp> {
+      message.write(stream);
+      if (stream.bytes.size() < kHeaderBytes) return bad(path, topic + " has no header");
+      std::array<std::uint32_t, 3> header{};  // bags are little-endian, as we are
+      std::memcpy(header.data(), stream.bytes.data(), kHeaderBytes);
+      const Stamp own = kSecond_ns * header[1] + header[2];
+      return own != 0 ? own : nanoseconds(message.getTime());
+    });
+  }
 };
 
 Result<Bag> Bag::open(const std::filesystem::path& file) {
@@ -125,23 +137,32 @@ const std::filesystem::path& Bag::path() const { return impl_->path; }
 
 const std::vector<Topic>& Bag::topics() const { return impl_->topics; }
 
-Result<std::vector<Stamp>> Bag::stamps(const std::string& topic) const {
-  std::vector<Stamp> stamps;
-  const auto found = impl_->messages.find(topic);
-  if (found == impl_->messages.end()) return stamps;
+Result<std::map<std::string, std::vector<Stamp>>> Bag::stamps(
+    const std::vector<std::string>& topics, const Progress& progress) const {
+  struct Place {
+    ros::Time time;
+    const std::string* topic;
+    std::size_t index;
+  };
+  std::vector<Place> places;  // in the order of time, so that no chunk is unpacked twice
+  std::map<std::string, std::vector<Stamp>> stamps;
+  for (const std::string& topic : topics) {
+    const auto found = impl_->messages.find(topic);
+    if (found == impl_->messages.end()) continue;
+    stamps[topic].resize(found->second.size());
+    for (std::size_t index = 0; index < found->second.size(); ++index) {
+      places.push_back({found->second[index].getTime(), &found->first, index});
+    }
+  }
+  std::stable_sort(places.begin(), places.end(),
+                   [](const Place& a, const Place& b) { return a.time < b.time; });
   ByteStream stream;
-  for (std::size_t index = 0; index < found->second.size(); ++index) {
-    const auto stamp =
-        impl_->read(topic, index, [&](const rosbag::MessageInstance& message) -> Result<Stamp> {
-          message.write(stream);
-          if (stream.bytes.size() < kHeaderBytes) return bad(impl_->path, topic + " has no header");
-          std::array<std::uint32_t, 3> header{};  // bags are little-endian, as we are
-          std::memcpy(header.data(), stream.bytes.data(), kHeaderBytes);
-          const Stamp own = kSecond_ns * header[1] + header[2];
-          return own != 0 ? own : nanoseconds(message.getTime());
-        });
+  std::size_t done = 0;
+  for (const Place& place : places) {
+    const auto stamp = impl_->stamp(*place.topic, place.index, stream);
     if (!stamp) return stamp.error();
-    stamps.push_back(*stamp);
+    stamps[*place.topic][place.index] = *stamp;
+    if (progress) progress(++done, places.size());
   }
   return stamps;
 }

@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -15,6 +17,9 @@ namespace flowdlo::recording {
 
 /// Nanoseconds of a message's header; of its arrival where the header has none.
 using Stamp = std::int64_t;
+
+/// How many messages of how many were read.
+using Progress = std::function<void(std::size_t done, std::size_t total)>;
 
 struct Topic {
   std::string name;
@@ -56,8 +61,10 @@ class Bag {
   [[nodiscard]] const std::filesystem::path& path() const;
   /// By name.
   [[nodiscard]] const std::vector<Topic>& topics() const;
-  /// Of every message of `topic`, in the order of their arrival. Reads all of them.
-  [[nodiscard]] Result<std::vector<Stamp>> stamps(const std::string& topic) const;
+  /// Of every message of `topics`, in the order of their arrival. Reads all of them, which takes
+  /// its time: `progress` may be empty.
+  [[nodiscard]] Result<std::map<std::string, std::vector<Stamp>>> stamps(
+      const std::vector<std::string>& topics, const Progress& progress) const;
   /// The topic's message of that place in the order of arrival.
   [[nodiscard]] Result<ImageMessage> image(const std::string& topic, std::size_t index) const;
   [[nodiscard]] Result<CameraMessage> camera(const std::string& topic, std::size_t index) const;

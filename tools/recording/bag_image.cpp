@@ -41,7 +41,7 @@ Error bad(const std::string& who, const std::string& expected, const std::string
 
 // A copy without padding.
 Result<cv::Mat> raw_pixels(const ImageMessage& message, int type, const std::string& who) {
-  const std::size_t row_bytes = message.width * std::size_t{CV_ELEM_SIZE(type)};
+  const std::size_t row_bytes = static_cast<std::size_t>(CV_ELEM_SIZE(type)) * message.width;
   const std::size_t step = message.step;
   const auto side = static_cast<std::uint32_t>(frame::kMaxSide_px);
   if (message.width < 1 || message.height < 1 || message.width > side || message.height > side) {

@@ -95,7 +95,7 @@ class Walker {
     record = {};
     record.begin = at;
     std::uint32_t length = 0;
-    const Fault cut = fmt::format("the record at byte {} runs over its end; was it cut off?", at);
+    const Fault cut = fmt::format("the record at byte {} runs over its end (cut off?)", at);
     if (!read_length(at, limit, length) || length > kMostHeaderBytes) return cut;
     std::string header;
     if (!read_bytes(at + sizeof(length), limit, length, header)) return cut;
@@ -120,7 +120,7 @@ class Walker {
       return "it is encrypted; write it again without";
     }
     if (index_begin_ == 0) return "it has no index: its recording was not closed";
-    return index_begin_ <= size_ ? Fault() : "its index lies beyond its end; was it cut off?";
+    return index_begin_ <= size_ ? Fault() : "its index lies beyond its end (cut off?)";
   }
 
   Fault take(const Record& record) {

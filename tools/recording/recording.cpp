@@ -2,10 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <mutex>
-#include <numeric>
 #include <opencv2/core.hpp>
 #include <utility>
 #include <vector>
@@ -13,8 +12,9 @@
 #include "frame/faults.hpp"
 #include "recording/bag.hpp"
 #include "recording/bag_image.hpp"
+#include "recording/matched_sets.hpp"
 #include "recording/rectification.hpp"
-#include "recording/stamp_match.hpp"
+#include "recording/tracks.hpp"
 
 namespace flowdlo::recording {
 namespace {
@@ -22,158 +22,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double kNanosecondsAMillisecond = 1e6;
-constexpr double kNanosecondsASecond = 1e9;
-
-/// A topic and the stamps of its messages; without a name: not in use.
-struct Track {
-  std::string topic;
-  std::vector<Stamp> stamps;
-};
-
-struct Tracks {
-  Track depth;
-  Track color;
-  Track mask;
-  Track camera;
-};
-
-/// Indices of the messages that make one frame.
-struct MatchedSet {
-  std::size_t number = 0;  ///< among all that were matched
-  std::size_t depth = 0;
-  std::size_t color = 0;
-  std::size_t mask = 0;
-  std::size_t camera = 0;
-};
-
-std::string listed(const std::vector<Topic>& topics) {
-  std::string words;
-  for (const Topic& topic : topics) {
-    words += fmt::format("\n  {} ({}, {} messages)", topic.name, topic.type, topic.messages);
-  }
-  return words.empty() ? " nothing" : words;
-}
-
-bool is_image(const std::string& type) {
-  return type == "sensor_msgs/Image" || type == "sensor_msgs/CompressedImage";
-}
-
-bool is_camera(const std::string& type) { return type == "sensor_msgs/CameraInfo"; }
-
-const Topic* find(const std::vector<Topic>& topics, const std::string& name) {
-  const auto found = std::find_if(topics.begin(), topics.end(),
-                                  [&](const Topic& topic) { return topic.name == name; });
-  return found == topics.end() || found->messages == 0 ? nullptr : &*found;
-}
-
-/// `name` or its compressed form; nullptr when neither is there.
-const Topic* find_any_form(const std::vector<Topic>& topics, const std::string& name) {
-  for (const char* form : {"", "/compressed", "/compressedDepth"}) {
-    if (const Topic* topic = find(topics, name + form)) return topic;
-  }
-  return nullptr;
-}
-
-/// The name of the topic to read, or a fault and nothing.
-std::string chosen(const Bag& bag, const std::string& name, const char* option,
-                   bool (*fits)(const std::string&), const char* kind, frame::Faults& faults) {
-  const Topic* topic = find_any_form(bag.topics(), name);
-  if (topic != nullptr && fits(topic->type)) return topic->name;
-  faults.bad_input(fmt::format("{}: expected {} on {} \"{}\", got {}", bag.path().string(), kind,
-                               option, name, topic == nullptr ? "no message" : topic->type));
-  return {};
-}
-
-Result<Tracks> choose_tracks(const Bag& bag, const RecordingOptions& options) {
-  frame::Faults faults;
-  Tracks tracks;
-  constexpr const char* kImage = "sensor_msgs/Image or CompressedImage";
-  tracks.depth.topic = chosen(bag, options.depth_topic, "--depth-topic", is_image, kImage, faults);
-  const bool color_there = find_any_form(bag.topics(), options.color_topic) != nullptr;
-  if (options.hsv || options.color_required || color_there) {
-    tracks.color.topic =
-        chosen(bag, options.color_topic, "--color-topic", is_image, kImage, faults);
-  }
-  if (!options.mask_topic.empty()) {
-    tracks.mask.topic = chosen(bag, options.mask_topic, "--mask-topic", is_image, kImage, faults);
-  }
-  tracks.camera.topic = chosen(bag, options.camera_topic, "--camera-topic", is_camera,
-                               "sensor_msgs/CameraInfo", faults);
-  if (faults.empty()) return tracks;
-  return Error{faults.error().code,
-               faults.error().message + "\nthe bag has:" + listed(bag.topics())};
-}
-
-Result<void> read_stamps(const Bag& bag, Tracks& tracks) {
-  for (Track* track : {&tracks.depth, &tracks.color, &tracks.mask, &tracks.camera}) {
-    if (track->topic.empty()) continue;
-    auto stamps = bag.stamps(track->topic);
-    if (!stamps) return stamps.error();
-    track->stamps = *std::move(stamps);
-  }
-  return {};
-}
-
-/// Every depth image with its partners, in the order of their stamps.
-std::vector<MatchedSet> matched(const Tracks& tracks, Stamp tolerance_ns) {
-  const auto& depth = tracks.depth.stamps;
-  const auto color = match_stamps(depth, tracks.color.stamps, tolerance_ns);
-  const auto mask = match_stamps(depth, tracks.mask.stamps, tolerance_ns);
-  std::vector<std::size_t> order(depth.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return depth[a] < depth[b]; });
-  std::vector<MatchedSet> sets;
-  for (const std::size_t i : order) {
-    const bool has_color = tracks.color.topic.empty() || color[i].has_value();
-    const bool has_mask = tracks.mask.topic.empty() || mask[i].has_value();
-    if (!has_color || !has_mask) continue;
-    sets.push_back({sets.size(), i, color[i].value_or(0), mask[i].value_or(0),
-                    latest_until(tracks.camera.stamps, depth[i])});
-  }
-  return sets;
-}
-
-std::vector<MatchedSet> selected(const std::vector<MatchedSet>& sets, const Tracks& tracks,
-                                 const RecordingOptions& options) {
-  const auto& depth = tracks.depth.stamps;
-  const Stamp first = *std::min_element(depth.begin(), depth.end());
-  std::vector<MatchedSet> within;
-  for (const MatchedSet& set : sets) {
-    const double at_s = static_cast<double>(depth[set.depth] - first) / kNanosecondsASecond;
-    if (at_s >= options.from_s && at_s <= options.to_s) within.push_back(set);
-  }
-  std::vector<MatchedSet> result;
-  for (std::size_t i = 0; i < within.size(); i += static_cast<std::size_t>(options.every)) {
-    result.push_back(within[i]);
-  }
-  return result;
-}
-
-/// Milliseconds from the depth image to the partner, at most.
-double largest_gap_ms(const std::vector<MatchedSet>& sets, const Tracks& tracks) {
-  Stamp largest = 0;
-  for (const MatchedSet& set : sets) {
-    const Stamp at = tracks.depth.stamps[set.depth];
-    if (!tracks.color.topic.empty()) {
-      largest = std::max(largest, std::abs(tracks.color.stamps[set.color] - at));
-    }
-    if (!tracks.mask.topic.empty()) {
-      largest = std::max(largest, std::abs(tracks.mask.stamps[set.mask] - at));
-    }
-  }
-  return static_cast<double>(largest) / kNanosecondsAMillisecond;
-}
-
-std::string counted(const Tracks& tracks) {
-  std::string words = fmt::format("{} depth", tracks.depth.stamps.size());
-  const auto add = [&](const Track& track, const char* what) {
-    if (!track.topic.empty()) words += fmt::format(", {} {}", track.stamps.size(), what);
-  };
-  add(tracks.color, "colour");
-  add(tracks.mask, "mask");
-  return words + " images";
-}
 
 /// Why there is no frame.
 Error no_frames(const Bag& bag, const Tracks& tracks, const std::vector<MatchedSet>& sets,
@@ -331,13 +179,9 @@ struct Recording::Impl {
 };
 
 Result<std::shared_ptr<const Recording>> Recording::open(const fs::path& file,
-                                                         const RecordingOptions& options) {
-  if (options.hsv.has_value() != options.mask_topic.empty()) {
-    return Error{ErrorCode::kBadInput,
-                 fmt::format("{}: expected one way to the rope's mask, got {}; give --hsv or "
-                             "--mask-topic",
-                             file.string(), options.hsv ? "two" : "none")};
-  }
+                                                         const RecordingOptions& options,
+                                                         const Progress& progress) {
+  if (auto sound = check(options, file.string()); !sound) return sound.error();
   auto bag = Bag::open(file);
   if (!bag) return bag.error();
   auto impl = std::make_unique<Impl>(*std::move(bag));
@@ -345,7 +189,7 @@ Result<std::shared_ptr<const Recording>> Recording::open(const fs::path& file,
   auto tracks = choose_tracks(impl->bag, options);
   if (!tracks) return tracks.error();
   impl->tracks = *std::move(tracks);
-  if (auto read = read_stamps(impl->bag, impl->tracks); !read) return read.error();
+  if (auto read = read_stamps(impl->bag, progress, impl->tracks); !read) return read.error();
   const auto tolerance_ns =
       static_cast<Stamp>(std::llround(options.sync_tolerance_ms * kNanosecondsAMillisecond));
   const auto sets = matched(impl->tracks, tolerance_ns);

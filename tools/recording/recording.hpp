@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <string>
 
@@ -14,10 +15,11 @@ namespace flowdlo::recording {
 
 class Recording {
  public:
-  /// Reads the index and the stamps, and matches them. Fails with kIo, or with kBadInput that lists
-  /// every topic that is missing and those that are there.
+  /// Reads the index and the stamps, and matches them; `progress` hears of the stamps. Fails with
+  /// kIo, or with kBadInput that lists every topic that is missing and those that are there.
   [[nodiscard]] static Result<std::shared_ptr<const Recording>> open(
-      const std::filesystem::path& file, const RecordingOptions& options);
+      const std::filesystem::path& file, const RecordingOptions& options,
+      const std::function<void(std::size_t done, std::size_t total)>& progress = {});
 
   /// Frames: one a depth image that has its partners, from-to, every Nth.
   [[nodiscard]] std::size_t size() const;

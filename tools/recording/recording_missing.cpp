@@ -9,8 +9,9 @@ struct Recording::Impl {
   std::string summary;
 };
 
-Result<std::shared_ptr<const Recording>> Recording::open(const std::filesystem::path& file,
-                                                         const RecordingOptions& /*options*/) {
+Result<std::shared_ptr<const Recording>> Recording::open(
+    const std::filesystem::path& file, const RecordingOptions& /*options*/,
+    const std::function<void(std::size_t, std::size_t)>& /*progress*/) {
   return Error{ErrorCode::kBadInput,
                fmt::format("{}: this flowdlo does not read recordings: {}; install "
                            "librosbag-storage-dev and libsensor-msgs-dev, then configure and build "

@@ -6,6 +6,8 @@
 #include <optional>
 #include <string>
 
+#include "flowdlo/result.hpp"
+
 namespace flowdlo::recording {
 
 /// A topic may also be recorded as NAME/compressed or NAME/compressedDepth.
@@ -23,5 +25,8 @@ struct RecordingOptions {
   bool rectified = false;      ///< the images are pinhole images: P of the camera info holds
   bool color_required = true;  ///< false: the colour topic was not asked for, only looked for
 };
+
+/// Fails with kBadInput, naming `who`, where options contradict each other or mean nothing.
+[[nodiscard]] Result<void> check(const RecordingOptions& options, const std::string& who);
 
 }  // namespace flowdlo::recording
