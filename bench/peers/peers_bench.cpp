@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <ctime>
 #include <memory>
 #include <thread>
 #include <vector>
@@ -39,7 +40,14 @@ struct Options {
   int rounds = 21;
 };
 
-double percentile(std::vector<double> values, double share) {
+struct Turn {
+  double wall_ms = 0;
+  double cpu_ms = 0;  // of all threads together
+};
+
+double percentile(const std::vector<Turn>& turns, double Turn::*field, double share) {
+  std::vector<double> values;
+  for (const Turn& turn : turns) values.push_back(turn.*field);
   std::sort(values.begin(), values.end());
   const double rank = share * static_cast<double>(values.size() - 1);
   const auto below = static_cast<std::size_t>(rank);
@@ -87,21 +95,29 @@ bool agree(const std::vector<std::unique_ptr<Peer>>& peers, const Problem& probl
   return fine;
 }
 
-std::vector<std::vector<double>> time_in_turns(const std::vector<std::unique_ptr<Peer>>& peers,
-                                               const Problem& problem, int rounds) {
-  std::vector<std::vector<double>> times_ms(peers.size());
+double cpu_ms() {
+  timespec time{};
+  ::clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
+  return 1e3 * static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_nsec);
+}
+
+std::vector<std::vector<Turn>> time_in_turns(const std::vector<std::unique_ptr<Peer>>& peers,
+                                             const Problem& problem, int rounds) {
+  std::vector<std::vector<Turn>> turns(peers.size());
   std::vector<float> state(problem.source.size());
   for (int round = 0; round <= rounds; ++round) {
     for (std::size_t i = 0; i < peers.size(); ++i) {
       std::this_thread::sleep_for(kPause);
+      const double cpu_start = cpu_ms();
       const auto start = std::chrono::steady_clock::now();
       peers[i]->sample(state);
       const std::chrono::duration<double, std::milli> took =
           std::chrono::steady_clock::now() - start;
-      if (round > 0) times_ms[i].push_back(took.count());  // the first is to warm up
+      if (round == 0) continue;  // to warm up
+      turns[i].push_back({took.count(), cpu_ms() - cpu_start});
     }
   }
-  return times_ms;
+  return turns;
 }
 
 int run(const Options& options) {
@@ -116,16 +132,17 @@ int run(const Options& options) {
     fmt::print(stderr, "peers: results differ; nothing was timed\n");
     return 1;
   }
-  const auto times_ms = time_in_turns(peers, *problem, options.rounds);
-  const double ours = percentile(times_ms.front(), 0.5);
+  const auto turns = time_in_turns(peers, *problem, options.rounds);
+  const double ours = percentile(turns.front(), &Turn::wall_ms, 0.5);
   fmt::print("\n{} draws, {} steps, {} threads, {} rounds in turns\n\n", options.draws,
              options.steps, options.threads, options.rounds);
   fmt::print(
-      "| model part of a frame | median ms | p95 ms | FlowDLO / this |\n|---|---|---|---|\n");
+      "| model part of a frame | median ms | p95 ms | least ms | median CPU ms | FlowDLO / this |"
+      "\n|---|---|---|---|---|---|\n");
   for (std::size_t i = 0; i < peers.size(); ++i) {
-    const double median = percentile(times_ms[i], 0.5);
-    fmt::print("| {} | {:.1f} | {:.1f} | {:.2f} |\n", peers[i]->name(), median,
-               percentile(times_ms[i], 0.95), ours / median);
+    const auto at = [&](double share) { return percentile(turns[i], &Turn::wall_ms, share); };
+    fmt::print("| {} | {:.1f} | {:.1f} | {:.1f} | {:.1f} | {:.2f} |\n", peers[i]->name(), at(0.5),
+               at(0.95), at(0), percentile(turns[i], &Turn::cpu_ms, 0.5), ours / at(0.5));
   }
   return 0;
 }

@@ -3,30 +3,21 @@
 // erf by Abramowitz and Stegun 7.1.26, |error| below 1.5e-7; the shaders use the same form.
 #pragma once
 
-#include <Eigen/Core>
-
-#include "reference/isa.hpp"
+#include "reference/lanes.hpp"
 
 namespace flowdlo::reference::FLOWDLO_ISA {
 
-/// Columns must be a multiple of 64.
-template <class Derived>
-inline void gelu_in_place(Eigen::ArrayBase<Derived>& x) {
+FLOWDLO_INLINE Lanes gelu(const Lanes& x) {
   constexpr float kInverseSqrt2 = 0.70710678118654752F;
-  constexpr Eigen::Index kStrip = 64;
-  using Strip = Eigen::Array<float, 1, kStrip>;
-  for (Eigen::Index row = 0; row < x.rows(); ++row) {
-    for (Eigen::Index column = 0; column + kStrip <= x.cols(); column += kStrip) {
-      auto values = x.row(row).template segment<kStrip>(column);
-      const Strip z = values.abs() * kInverseSqrt2;
-      const Strip t = (1.0F + 0.3275911F * z).inverse();
-      const Strip poly =
-          t * (0.254829592F +
-               t * (-0.284496736F + t * (1.421413741F + t * (-1.453152027F + t * 1.061405429F))));
-      const Strip tail = poly * (-z * z).exp();  // 1 - erf(|x| / sqrt 2)
-      values = 0.5F * (values + values.abs() * (1.0F - tail));
-    }
-  }
+  const Lanes magnitude = larger(x, -x);
+  const Lanes z = magnitude * kInverseSqrt2;
+  const Lanes t = 1.0F / (z * 0.3275911F + 1.0F);
+  Lanes series = t * 1.061405429F - 1.453152027F;
+  series = series * t + 1.421413741F;
+  series = series * t - 0.284496736F;
+  series = series * t + 0.254829592F;
+  const Lanes tail = (series * t) * exp_of_negative(-z * z);  // 1 - erf(|x| / sqrt 2)
+  return 0.5F * (x + magnitude - magnitude * tail);
 }
 
 }  // namespace flowdlo::reference::FLOWDLO_ISA

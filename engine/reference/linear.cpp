@@ -1,47 +1,81 @@
 // Twin of shaders/gemm: y = act(x W^T + b) + residual.
-#include <Eigen/Core>
-#include <algorithm>
-
+//
+// The weights lie in panels of kPanel columns, [panel][in][kPanel], read from end to end. A block
+// of 256 inputs of a panel stays in the nearest cache while the rows go by.
 #include "reference/gelu.hpp"
 #include "reference/isa.hpp"
+#include "reference/tile.hpp"
 
 namespace flowdlo::reference::FLOWDLO_ISA {
 namespace {
 
-using Matrix = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-using ConstStrided = Eigen::Map<const Matrix, 0, Eigen::OuterStride<>>;
+constexpr int kDepth = 256;  // inputs of a panel taken at once
 
-ConstStrided residual(const LinearBlock& block) {
-  return {block.residual + block.column, block.rows, block.columns,
-          Eigen::OuterStride<>(block.out)};
+enum class Last { kNo, kPlain, kGelu };
+
+/// One tile of y over one block of inputs: sums start from bias and residual, or from y.
+template <int kRows>
+FLOWDLO_INLINE void multiply(const LinearBlock& block, const float* panel, int row, int column,
+                             int depth_begin, Last last) {
+  const auto at = [](int i, int stride) { return static_cast<std::ptrdiff_t>(i) * stride; };
+  float* const y = block.y + at(row, block.out) + column;
+  const bool residual_first =
+      block.residual != nullptr && block.activation != ops::Activation::kGelu;
+  Tile<kRows> tile;
+  for (int r = 0; r < kRows; ++r) {
+    for (int i = 0; i < kTileLanes; ++i) {
+      const std::ptrdiff_t offset = at(r, block.out) + i * kLanes;
+      if (depth_begin > 0) {
+        tile.sums[r][i] = load(y + offset);
+      } else {
+        tile.sums[r][i] = load(block.bias + column + i * kLanes);
+        if (residual_first) {
+          tile.sums[r][i] += load(block.residual + at(row, block.out) + column + offset);
+        }
+      }
+    }
+  }
+  accumulate(tile, block.x + at(row, block.in) + depth_begin, block.in, 1,
+             panel + at(depth_begin, kPanel), kPanel, kDepth);
+  for (int r = 0; r < kRows; ++r) {
+    for (int i = 0; i < kTileLanes; ++i) {
+      const std::ptrdiff_t offset = at(r, block.out) + i * kLanes;
+      Lanes result = tile.sums[r][i];
+      if (last == Last::kGelu) {
+        result = gelu(result);
+        if (block.residual != nullptr) {
+          result += load(block.residual + at(row, block.out) + column + offset);
+        }
+      }
+      store(y + offset, result);
+    }
+  }
 }
 
 }  // namespace
 
 void linear(const LinearBlock& block) {
-  using Strided = Eigen::Map<Matrix, 0, Eigen::OuterStride<>>;
-
-  const Eigen::Map<const Matrix> x(block.x, block.rows, block.in);
-  const Eigen::Map<const Matrix> weight(
-      block.weight + static_cast<std::ptrdiff_t>(block.column) * block.in, block.columns, block.in);
-  const Eigen::Map<const Eigen::RowVectorXf> bias(block.bias + block.column, block.columns);
-  Strided y(block.y + block.column, block.rows, block.columns, Eigen::OuterStride<>(block.out));
-
-  // Without an activation the sum starts from the residual; with one the residual has to wait, and
-  // since it may be y itself, in a copy.
-  const bool gelu = block.activation == ops::Activation::kGelu;
-  Matrix added_last;
-  if (block.residual != nullptr && gelu) added_last = residual(block);
-  if (block.residual != nullptr && !gelu) {
-    y = residual(block).rowwise() + bias;
-  } else {
-    y.rowwise() = bias;
+  const bool with_gelu = block.activation == ops::Activation::kGelu;
+  for (int column = block.column; column < block.column + block.columns; column += kPanel) {
+    const float* const panel = block.panels + static_cast<std::ptrdiff_t>(column) * block.in;
+    for (int depth = 0; depth < block.in; depth += kDepth) {
+      const bool final_depth = depth + kDepth == block.in;
+      const Last last = !final_depth ? Last::kNo : with_gelu ? Last::kGelu : Last::kPlain;
+      for_tiles(block.rows, [&](int row, auto rows) {
+        multiply<decltype(rows)::value>(block, panel, row, column, depth, last);
+      });
+    }
   }
-  y.noalias() += x * weight.transpose();
-  if (!gelu) return;
-  auto values = y.array();
-  gelu_in_place(values);
-  if (added_last.size() > 0) y += added_last;
+}
+
+void pack(const float* weight, int out, int in, float* panels) {
+  for (int column = 0; column < out; ++column) {
+    float* const panel = panels + static_cast<std::ptrdiff_t>(column / kPanel * kPanel) * in;
+    for (int k = 0; k < in; ++k) {
+      panel[static_cast<std::ptrdiff_t>(k) * kPanel + column % kPanel] =
+          weight[static_cast<std::ptrdiff_t>(column) * in + k];
+    }
+  }
 }
 
 }  // namespace flowdlo::reference::FLOWDLO_ISA
