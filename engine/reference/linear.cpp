@@ -9,12 +9,35 @@
 namespace flowdlo::reference::FLOWDLO_ISA {
 namespace {
 
+// The two depths there are: constants, so that the rows of a tile lie at fixed distances.
+constexpr int kShort = ops::kWidth;
+constexpr int kLong = 4 * ops::kWidth;
 constexpr int kDepth = 256;  // inputs of a panel taken at once
+
+constexpr int kGroup = 4;  // inputs between two requests for the next weights
+
+/// Requests, while one block of weights is at work, of the block after it: it comes from the
+/// third-level cache or from memory, every step again. Spread over the work, as a burst would
+/// keep the rows from coming in.
+struct Ahead {
+  const float* at;
+  std::ptrdiff_t step;  // floats, for each group of inputs
+
+  FLOWDLO_INLINE Ahead(const float* block, int row, int rows, int tile_rows)
+      : at(block + static_cast<std::ptrdiff_t>(kDepth) * kPanel * (rows + row) / rows),
+        step(static_cast<std::ptrdiff_t>(kGroup) * kPanel * tile_rows / rows) {}
+
+  FLOWDLO_INLINE void request() {
+    __builtin_prefetch(at, 0, 2);
+    __builtin_prefetch(at + step / 2, 0, 2);
+    at += step;
+  }
+};
 
 enum class Last { kNo, kPlain, kGelu };
 
 /// One tile of y over one block of inputs: sums start from bias and residual, or from y.
-template <int kRows>
+template <int kIn, int kRows>
 FLOWDLO_INLINE void multiply(const LinearBlock& block, const float* panel, int row, int column,
                              int depth_begin, Last last) {
   const auto at = [](int i, int stride) { return static_cast<std::ptrdiff_t>(i) * stride; };
@@ -35,8 +58,13 @@ FLOWDLO_INLINE void multiply(const LinearBlock& block, const float* panel, int r
       }
     }
   }
-  accumulate(tile, block.x + at(row, block.in) + depth_begin, block.in, 1,
-             panel + at(depth_begin, kPanel), kPanel, kDepth);
+  const float* const x = block.x + at(row, kIn) + depth_begin;
+  const float* const weights = panel + at(depth_begin, kPanel);
+  Ahead ahead(weights, row, block.rows, kRows);
+  for (int k = 0; k < kDepth; k += kGroup) {
+    ahead.request();
+    accumulate(tile, x + k, kIn, 1, weights + at(k, kPanel), kPanel, kGroup);
+  }
   for (int r = 0; r < kRows; ++r) {
     for (int i = 0; i < kTileLanes; ++i) {
       const std::ptrdiff_t offset = at(r, block.out) + i * kLanes;
@@ -52,19 +80,27 @@ FLOWDLO_INLINE void multiply(const LinearBlock& block, const float* panel, int r
   }
 }
 
+template <int kIn>
+FLOWDLO_INLINE void linear_of(const LinearBlock& block) {
+  const bool with_gelu = block.activation == ops::Activation::kGelu;
+  for (int column = block.column; column < block.column + block.columns; column += kPanel) {
+    const float* const panel = block.panels + static_cast<std::ptrdiff_t>(column) * kIn;
+    for (int depth = 0; depth < kIn; depth += kDepth) {
+      const Last last = depth + kDepth < kIn ? Last::kNo : with_gelu ? Last::kGelu : Last::kPlain;
+      for_tiles(block.rows, [&](int row, auto rows) {
+        multiply<kIn, decltype(rows)::value>(block, panel, row, column, depth, last);
+      });
+    }
+  }
+}
+
 }  // namespace
 
 void linear(const LinearBlock& block) {
-  const bool with_gelu = block.activation == ops::Activation::kGelu;
-  for (int column = block.column; column < block.column + block.columns; column += kPanel) {
-    const float* const panel = block.panels + static_cast<std::ptrdiff_t>(column) * block.in;
-    for (int depth = 0; depth < block.in; depth += kDepth) {
-      const bool final_depth = depth + kDepth == block.in;
-      const Last last = !final_depth ? Last::kNo : with_gelu ? Last::kGelu : Last::kPlain;
-      for_tiles(block.rows, [&](int row, auto rows) {
-        multiply<decltype(rows)::value>(block, panel, row, column, depth, last);
-      });
-    }
+  if (block.in == kShort) {
+    linear_of<kShort>(block);
+  } else {
+    linear_of<kLong>(block);
   }
 }
 

@@ -147,6 +147,7 @@ ops::LinearLayer Program::layer(std::string_view, int out, int in, std::span<con
 }
 
 void Program::record(const ops::Linear& op) {
+  assert(op.layer.in == ops::kWidth || op.layer.in == 4 * ops::kWidth);
   const auto work = [this, op](const Piece& piece) {
     const Layer& layer = layers_[op.layer.id];
     const int row = piece.block * kBlockRows;

@@ -27,6 +27,7 @@ template <int kRows>
 FLOWDLO_INLINE void accumulate(Tile<kRows>& tile, const float* x, std::ptrdiff_t row_step,
                                std::ptrdiff_t depth_step, const float* panel,
                                std::ptrdiff_t panel_step, int depth) {
+#pragma GCC unroll 4
   for (int k = 0; k < depth; ++k) {
     Lanes columns[kTileLanes];
     for (int i = 0; i < kTileLanes; ++i) columns[i] = load(panel + k * panel_step + i * kLanes);
