@@ -15,6 +15,7 @@
 #include "eval/error_overlay.hpp"
 #include "eval/evaluator.hpp"
 #include "eval/plots.hpp"
+#include "eval/sweep.hpp"
 #include "eval/tables.hpp"
 #include "flowdlo/frame_folder.hpp"
 #include "frame/staged_files.hpp"
@@ -32,6 +33,8 @@ struct EvalOptions {
   fs::path out;
   Config config;
   int worst = 0;
+  std::vector<int> sweep_steps;
+  std::vector<int> sweep_draws;
   bool quiet = false;
 };
 
@@ -53,8 +56,8 @@ std::vector<eval::Trial> run_all(const EvalOptions& options, const std::vector<F
 
 std::string heading(const EvalOptions& options, const eval::Evaluator& evaluator) {
   return fmt::format(
-      "# Evaluation\n\n{} draws of {} steps on {}; weights: {}.\n\n", options.config.draws,
-      options.config.euler_steps, evaluator.device(),
+      "# Evaluation\n\n{} draws of {} steps on {}; weights: {}.\n\n", evaluator.estimator().draws(),
+      evaluator.estimator().euler_steps(), evaluator.estimator().device(),
       options.config.weights.empty() ? "those that ship" : options.config.weights.string());
 }
 
@@ -103,9 +106,34 @@ Result<void> draw_worst(const EvalOptions& options, const std::vector<FrameEntry
   return staged.commit();
 }
 
+/// Error against K and D in place of the tables.
+ExitCode run_sweep(const EvalOptions& options, const std::vector<FrameEntry>& frames) {
+  std::vector<fs::path> folders;
+  for (const FrameEntry& entry : frames) folders.push_back(entry.folder);
+  const auto steps = options.sweep_steps.empty() ? std::vector{1, 2, 4, 10} : options.sweep_steps;
+  const auto draws = options.sweep_draws.empty() ? std::vector{1, 2, 4} : options.sweep_draws;
+  const auto rounds = frames.size() * eval::settings_of(steps, draws);
+  ProgressBar progress("sweep", static_cast<int>(rounds), options.quiet);
+  const auto settings =
+      eval::sweep(options.config, folders, steps, draws, [&progress] { progress.advance(); });
+  if (!settings) return complain(settings.error(), ExitCode::kUsage);
+  const std::string table = eval::sweep_markdown(*settings);
+  std::error_code failure;
+  fs::create_directories(options.out, failure);
+  frame::StagedFiles staged;
+  auto saved = staged.add(options.out / "sweep.md", table);
+  if (saved) saved = staged.commit();
+  if (!saved) return complain(saved.error(), ExitCode::kFailed);
+  if (!options.quiet) fmt::print("{}", table);
+  return ExitCode::kDone;
+}
+
 ExitCode run(const EvalOptions& options) {
   const auto frames = list_frames(options.frames);
   if (!frames) return complain(frames.error(), ExitCode::kUsage);
+  if (!options.sweep_steps.empty() || !options.sweep_draws.empty()) {
+    return run_sweep(options, *frames);
+  }
   auto evaluator = eval::Evaluator::create(options.config);
   if (!evaluator) return complain(evaluator.error(), ExitCode::kUsage);
   const auto trials = run_all(options, *frames, *evaluator);
@@ -137,6 +165,16 @@ void add_eval_command(CLI::App& app, ExitCode& exit_code) {
       ->capture_default_str()
       ->check(CLI::Range(0, 1000000))
       ->type_name("N");
+  command
+      ->add_option("--sweep-steps", options->sweep_steps,
+                   "Error against K and D (sweep.md) in place of the tables, for these K")
+      ->delimiter(',')
+      ->check(CLI::Range(1, 64))
+      ->type_name("K,...");
+  command->add_option("--sweep-draws", options->sweep_draws, "... for these D")
+      ->delimiter(',')
+      ->check(CLI::Range(1, 64))
+      ->type_name("D,...");
   command->add_flag("--quiet", options->quiet, "Print errors only");
   command->callback([options, &exit_code] { exit_code = run(*options); });
 }

@@ -14,6 +14,12 @@ enum class PriorChoice {
   kRefined,    ///< on the rope's centerline, uniform in arclength, from every measured pixel
 };
 
+/// How much of the model runs a frame.
+enum class Quality {
+  kFull,  ///< Config::euler_steps and Config::draws
+  kFast,  ///< the K and D that, measured, lose nothing: the weights' metadata hold them
+};
+
 struct Config {
   /// A .fdw file. Empty: `share/flowdlo/flowdlo.fdw` beside the library's installation.
   std::filesystem::path weights;
@@ -23,9 +29,10 @@ struct Config {
   /// else: part of a device's name, or its UUID, as `flowdlo devices` prints them.
   std::string device = "auto";
 
-  int euler_steps = 10;    ///< K in Eq. (3.26); 1..64
-  int draws = 4;           ///< Gaussian sources a frame, Sec. 4.1.3; 1..64
-  std::uint64_t seed = 0;  ///< of the sources x_0; same seed and device: the same bits
+  Quality quality = Quality::kFull;  ///< kFast takes the place of the next two
+  int euler_steps = 10;              ///< K in Eq. (3.26); 1..64
+  int draws = 4;                     ///< Gaussian sources a frame, Sec. 4.1.3; 1..64
+  std::uint64_t seed = 0;            ///< of the sources x_0; same seed and device: the same bits
   PriorChoice prior = PriorChoice::kOfWeights;
   double rope_length_m = 0;  ///< of the whole rope, where known; 0: unknown. Helps at crossings.
   int threads = 0;           ///< of the CPU back end; 0: one for each core

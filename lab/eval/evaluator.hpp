@@ -18,7 +18,7 @@ class Evaluator {
   /// Never fails: what goes wrong with a frame stands in Trial::failure and costs its row only.
   [[nodiscard]] Trial run(const std::filesystem::path& folder, const std::string& name);
 
-  [[nodiscard]] const std::string& device() const { return estimator_.device(); }
+  [[nodiscard]] const Estimator& estimator() const { return estimator_; }
 
  private:
   Evaluator(Estimator estimator, Estimator thesis, Estimator refined);
