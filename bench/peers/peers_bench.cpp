@@ -28,7 +28,7 @@ namespace {
 
 constexpr float kLargest = 1e-3F;  // difference to FlowDLO, normalised units
 // Between turns: idle threads of a BLAS or of ONNX Runtime spin before they sleep.
-constexpr std::chrono::milliseconds kPause{60};
+constexpr std::chrono::milliseconds kPause{150};
 
 struct Options {
   std::filesystem::path weights;

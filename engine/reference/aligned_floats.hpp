@@ -1,8 +1,8 @@
 // AlignedFloats: zeroed floats that begin at a cache line.
 #pragma once
 
-#include <algorithm>
 #include <cstddef>
+#include <cstdlib>
 #include <memory>
 #include <new>
 #include <span>
@@ -12,23 +12,28 @@ namespace flowdlo::reference {
 class AlignedFloats {
  public:
   AlignedFloats() = default;
+  /// Throws std::bad_alloc. Pages that nobody writes to take no memory: buffers are as large as the
+  /// largest frame, and most frames are smaller.
   explicit AlignedFloats(std::size_t count)
-      : floats_(static_cast<float*>(::operator new(count * sizeof(float), kAlignment))),
-        count_(count) {
-    std::fill_n(floats_.get(), count, 0.0F);
+      : memory_(std::calloc(count * sizeof(float) + kAlignment, 1)), count_(count) {
+    if (memory_ == nullptr) throw std::bad_alloc();
+    void* begin = memory_.get();
+    std::size_t space = count * sizeof(float) + kAlignment;
+    floats_ = static_cast<float*>(std::align(kAlignment, count * sizeof(float), begin, space));
   }
 
-  [[nodiscard]] float* data() const { return floats_.get(); }
+  [[nodiscard]] float* data() const { return floats_; }
   [[nodiscard]] std::size_t size() const { return count_; }
-  [[nodiscard]] std::span<float> span() const { return {floats_.get(), count_}; }
+  [[nodiscard]] std::span<float> span() const { return {floats_, count_}; }
 
  private:
-  static constexpr std::align_val_t kAlignment{64};
+  static constexpr std::size_t kAlignment = 64;
   struct Free {
-    void operator()(float* floats) const { ::operator delete(floats, kAlignment); }
+    void operator()(void* memory) const { std::free(memory); }
   };
 
-  std::unique_ptr<float, Free> floats_;
+  std::unique_ptr<void, Free> memory_;
+  float* floats_ = nullptr;
   std::size_t count_ = 0;
 };
 
