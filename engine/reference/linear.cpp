@@ -14,7 +14,8 @@ constexpr int kShort = ops::kWidth;
 constexpr int kLong = 4 * ops::kWidth;
 constexpr int kDepth = 256;  // inputs of a panel taken at once
 
-constexpr int kGroup = 4;  // inputs between two requests for the next weights
+constexpr int kGroup = 16;  // inputs between two requests for the next weights
+constexpr int kLine = 16;   // floats of a cache line
 
 /// Requests, while one block of weights is at work, of the block after it: it comes from the
 /// third-level cache or from memory, every step again. Spread over the work, as a burst would
@@ -28,8 +29,7 @@ struct Ahead {
         step(static_cast<std::ptrdiff_t>(kGroup) * kPanel * tile_rows / rows) {}
 
   FLOWDLO_INLINE void request() {
-    __builtin_prefetch(at, 0, 2);
-    __builtin_prefetch(at + step / 2, 0, 2);
+    for (std::ptrdiff_t i = 0; i < step; i += kLine) __builtin_prefetch(at + i, 0, 2);
     at += step;
   }
 };
