@@ -49,8 +49,8 @@ Provenance provenance_of(const EstimateOptions& options, const FrameEntry& entry
   return {entry.name,
           estimator.device(),
           options.config.weights.string(),
-          options.config.euler_steps,
-          options.config.draws,
+          estimator.euler_steps(),
+          estimator.draws(),
           options.config.seed};
 }
 

@@ -22,6 +22,7 @@
 #include "eval/merged_rows.hpp"
 #include "eval/plots.hpp"
 #include "eval/row_file.hpp"
+#include "eval/sweep.hpp"
 #include "eval/tables.hpp"
 #include "eval_outputs.hpp"
 #include "flowdlo/frame_folder.hpp"
@@ -48,6 +49,8 @@ struct EvalOptions {
   int jobs = 1;
   std::string shard = "1/1";
   int worst = 0;
+  std::vector<int> sweep_steps;
+  std::vector<int> sweep_draws;
   bool quiet = false;
 };
 
@@ -186,6 +189,28 @@ Result<void> draw_worst(const EvalOptions& options, const std::vector<FrameEntry
   return staged.commit();
 }
 
+/// Error against K and D in place of the tables.
+ExitCode run_sweep(const EvalOptions& options, const std::vector<FrameEntry>& frames) {
+  std::vector<fs::path> folders;
+  for (const FrameEntry& entry : frames) folders.push_back(entry.folder);
+  const auto steps = options.sweep_steps.empty() ? std::vector{1, 2, 4, 10} : options.sweep_steps;
+  const auto draws = options.sweep_draws.empty() ? std::vector{1, 2, 4} : options.sweep_draws;
+  const auto rounds = frames.size() * eval::settings_of(steps, draws);
+  ProgressBar progress("sweep", static_cast<int>(rounds), options.quiet);
+  const auto settings =
+      eval::sweep(options.config, folders, steps, draws, [&progress] { progress.advance(); });
+  if (!settings) return complain(settings.error(), ExitCode::kUsage);
+  const std::string table = eval::sweep_markdown(*settings);
+  std::error_code failure;
+  fs::create_directories(options.out, failure);
+  frame::StagedFiles staged;
+  auto saved = staged.add(options.out / "sweep.md", table);
+  if (saved) saved = staged.commit();
+  if (!saved) return complain(saved.error(), ExitCode::kFailed);
+  if (!options.quiet) fmt::print("{}", table);
+  return ExitCode::kDone;
+}
+
 /// Tables and plots of everything that `merged` holds: of one run or of many parts, the same bytes.
 ExitCode report(const fs::path& out, const fs::path& results, const eval::MergedRows& merged,
                 bool quiet) {
@@ -228,6 +253,9 @@ ExitCode run(const EvalOptions& options) {
   const auto frames =
       list_frames(options.frames, recording_opener(options.recordings, options.quiet));
   if (!frames) return complain(frames.error(), ExitCode::kUsage);
+  if (!options.sweep_steps.empty() || !options.sweep_draws.empty()) {
+    return run_sweep(options, *frames);
+  }
   auto evaluators = create_evaluators(options, frames->size());
   if (!evaluators) return complain(evaluators.error(), ExitCode::kUsage);
   const auto info = describe(options, *frames, *shard, evaluators->front().device());
@@ -283,6 +311,16 @@ void add_eval_command(CLI::App& app, ExitCode& exit_code) {
       ->capture_default_str()
       ->check(CLI::Range(0, 1000000))
       ->type_name("N");
+  command
+      ->add_option("--sweep-steps", options->sweep_steps,
+                   "Error against K and D (sweep.md) in place of the tables, for these K")
+      ->delimiter(',')
+      ->check(CLI::Range(1, 64))
+      ->type_name("K,...");
+  command->add_option("--sweep-draws", options->sweep_draws, "... for these D")
+      ->delimiter(',')
+      ->check(CLI::Range(1, 64))
+      ->type_name("D,...");
   command->add_flag("--quiet", options->quiet, "Print errors only");
   add_recording_options(*command, options->recordings);
   auto merging = std::make_shared<MergeOptions>();

@@ -44,12 +44,22 @@ void add_model_options(CLI::App& command, Config& config) {
       .add_option("--device", config.device,
                   "auto, vulkan, cpu, part of a device's name, or its UUID")
       ->capture_default_str();
-  command.add_option("--steps", config.euler_steps, "Euler steps of the model")
-      ->capture_default_str()
-      ->check(CLI::Range(1, 64));
-  command.add_option("--draws", config.draws, "Gaussian sources a frame")
-      ->capture_default_str()
-      ->check(CLI::Range(1, 64));
+  auto* steps = command.add_option("--steps", config.euler_steps, "Euler steps of the model")
+                    ->capture_default_str()
+                    ->check(CLI::Range(1, 64));
+  auto* draws = command.add_option("--draws", config.draws, "Gaussian sources a frame")
+                    ->capture_default_str()
+                    ->check(CLI::Range(1, 64));
+  command
+      .add_option("--quality", config.quality,
+                  "full: 10 steps of 4 draws; fast: the steps and draws that the weights' metadata "
+                  "say lose nothing")
+      ->transform(CLI::CheckedTransformer(
+          std::map<std::string, Quality>{{"full", Quality::kFull}, {"fast", Quality::kFast}},
+          CLI::ignore_case))
+      ->excludes(steps)
+      ->excludes(draws)
+      ->type_name("QUALITY");
   command.add_option("--seed", config.seed, "Of the Gaussian sources")
       ->capture_default_str()
       ->check(CLI::NonNegativeNumber);

@@ -15,6 +15,8 @@ namespace {
 struct Files {
   std::filesystem::path input;
   std::filesystem::path output;
+  int fast_steps = 0;
+  int fast_draws = 0;
 };
 
 ExitCode report(const Error& error) {
@@ -62,6 +64,21 @@ void add_weights_command(CLI::App& app, ExitCode& exit_code) {
   from->add_option("OUT", files->output, "The .fdw file to write")->required();
   from->callback([files, &exit_code] {
     exit_code = outcome(import_safetensors(files->input, files->output), *files);
+  });
+
+  auto* fast = command->add_subcommand("set-fast", "Say what --quality fast stands for");
+  fast->add_option("FILE", files->input, "A .fdw file")->required();
+  fast->add_option("OUT", files->output, "The .fdw file to write; may be FILE")->required();
+  fast->add_option("--steps", files->fast_steps, "Euler steps; 0: as full")
+      ->required()
+      ->check(CLI::Range(0, 64));
+  fast->add_option("--draws", files->fast_draws, "Gaussian sources; 0: as full")
+      ->required()
+      ->check(CLI::Range(0, 64));
+  fast->callback([files, &exit_code] {
+    exit_code =
+        outcome(set_fast_quality(files->input, files->fast_steps, files->fast_draws, files->output),
+                *files);
   });
 }
 

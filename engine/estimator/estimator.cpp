@@ -65,6 +65,16 @@ auto guarded(const char* who, const Work& work) -> decltype(work()) {
 /// A rope rarely covers more of an image than this; a denser mask makes the sampler grow once.
 constexpr int kCloudShare = 4;
 
+/// With K and D as the quality has them.
+Config resolved(const Config& config, const weights::Metadata& metadata) {
+  Config result = config;
+  if (config.quality == Quality::kFull) return result;
+  const Config full;
+  result.euler_steps = metadata.fast_steps > 0 ? metadata.fast_steps : full.euler_steps;
+  result.draws = metadata.fast_draws > 0 ? metadata.fast_draws : full.draws;
+  return result;
+}
+
 flow::SamplerConfig sampler_config(const Config& config) {
   const int pixels = config.max_width * config.max_height;
   return {.draws = config.draws,
@@ -158,14 +168,15 @@ struct Estimator::Impl {
   [[nodiscard]] std::vector<int> assign(const std::vector<estimator::Hypothesis>& hypotheses) const;
 };
 
-Result<std::unique_ptr<Estimator::Impl>> Estimator::Impl::create(const Config& config) {
-  if (auto checked = check(config); !checked) return checked.error();
-  auto file = config.weights.empty() ? estimator::default_weights()
-                                     : Result<std::filesystem::path>(config.weights);
+Result<std::unique_ptr<Estimator::Impl>> Estimator::Impl::create(const Config& wanted) {
+  if (auto checked = check(wanted); !checked) return checked.error();
+  auto file = wanted.weights.empty() ? estimator::default_weights()
+                                     : Result<std::filesystem::path>(wanted.weights);
   if (!file) return file.error();
   auto loaded = weights::load(*file);
   if (!loaded) return loaded.error();
   const auto weights = std::make_shared<const weights::Weights>(*std::move(loaded));
+  const Config config = resolved(wanted, weights->metadata);
 
   auto back_end = estimator::choose_back_end(config);
   if (!back_end) return back_end.error();
@@ -286,6 +297,9 @@ Result<Estimate> Estimator::estimate(const Frame& frame, Tensors& tensors) {
 }
 
 const std::string& Estimator::device() const { return impl_->device; }
+
+int Estimator::euler_steps() const { return impl_->config.euler_steps; }
+int Estimator::draws() const { return impl_->config.draws; }
 
 Estimator::Estimator(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 Estimator::Estimator(Estimator&&) noexcept = default;

@@ -20,17 +20,10 @@ constexpr std::size_t kLanes = 8;    // independent running maxima, for the vect
 constexpr float kPadding = -1.0F;    // "distance" of rows past the end: below every real one
 constexpr float kUnseen = std::numeric_limits<float>::infinity();
 
-struct Position {
-  float x;
-  float y;
-  float z;
-};
+using Position = FarthestPointsMemory::Position;
+using Block = FarthestPointsMemory::Block;
 
-struct Block {
-  Position low;
-  Position high;
-  float farthest;  // largest distance of its points to the picks so far
-};
+std::size_t blocks_of(std::size_t points) { return (points + kBlock - 1) / kBlock; }
 
 float distance_squared(float dx, float dy, float dz) { return (dx * dx + dy * dy) + dz * dz; }
 
@@ -44,7 +37,7 @@ float gap(float value, float low, float high) {
 
 class Sampler {
  public:
-  Sampler(std::span<const float> cloud_xyzw, std::size_t count);
+  Sampler(std::span<const float> cloud_xyzw, std::size_t count, FarthestPointsMemory& memory);
 
   /// Index of the point farthest from `from`.
   [[nodiscard]] std::size_t farthest_from(const Position& from) {
@@ -85,15 +78,21 @@ class Sampler {
   [[nodiscard]] std::size_t farthest() const;
 
   std::ptrdiff_t count_;
-  std::vector<float> x_;
-  std::vector<float> y_;
-  std::vector<float> z_;
-  std::vector<float> nearest_;
-  std::vector<Block> blocks_;
+  std::vector<float>& x_;
+  std::vector<float>& y_;
+  std::vector<float>& z_;
+  std::vector<float>& nearest_;
+  std::vector<Block>& blocks_;
 };
 
-Sampler::Sampler(std::span<const float> cloud_xyzw, std::size_t count)
-    : count_(static_cast<std::ptrdiff_t>(count)), blocks_((count + kBlock - 1) / kBlock) {
+Sampler::Sampler(std::span<const float> cloud_xyzw, std::size_t count, FarthestPointsMemory& memory)
+    : count_(static_cast<std::ptrdiff_t>(count)),
+      x_(memory.x),
+      y_(memory.y),
+      z_(memory.z),
+      nearest_(memory.nearest),
+      blocks_(memory.blocks) {
+  blocks_.resize(blocks_of(count));
   const std::size_t rows = blocks_.size() * kBlock;
   x_.assign(rows, 0);
   y_.assign(rows, 0);
@@ -159,8 +158,20 @@ void write_row(std::span<float> visible, std::size_t row, const Position& point,
 
 }  // namespace
 
+void FarthestPointsMemory::reserve(std::size_t points) {
+  const std::size_t rows = blocks_of(points) * kBlock;
+  for (std::vector<float>* values : {&x, &y, &z, &nearest}) values->reserve(rows);
+  blocks.reserve(blocks_of(points));
+}
+
 void farthest_points(std::span<const float> cloud_xyzw, int count, const float centroid[3],
                      std::span<float> visible) {
+  FarthestPointsMemory memory;
+  farthest_points(cloud_xyzw, count, centroid, visible, memory);
+}
+
+void farthest_points(std::span<const float> cloud_xyzw, int count, const float centroid[3],
+                     std::span<float> visible, FarthestPointsMemory& memory) {
   assert(visible.size() >= 4 * kPicks);
   assert(count >= 0 && cloud_xyzw.size() >= 4 * static_cast<std::size_t>(count));
   const auto points = static_cast<std::size_t>(count);
@@ -175,7 +186,7 @@ void farthest_points(std::span<const float> cloud_xyzw, int count, const float c
     }
     return;
   }
-  Sampler sampler(cloud_xyzw, points);
+  Sampler sampler(cloud_xyzw, points, memory);
   std::size_t pick = sampler.farthest_from({centroid[0], centroid[1], centroid[2]});
   write_row(visible, 0, sampler.position(pick), 1);
   for (std::size_t row = 1; row < kPicks; ++row) {

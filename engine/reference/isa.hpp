@@ -9,6 +9,7 @@
 
 namespace flowdlo::reference::FLOWDLO_ISA {
 
+void pack(const float* weight, int out, int in, float* panels);
 void linear(const LinearBlock& block);
 void narrow(const NarrowBlock& block);
 void layer_norm(const LayerNormBlock& block);

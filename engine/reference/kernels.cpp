@@ -1,37 +1,41 @@
 #include "reference/kernels.hpp"
 
+#include <array>
+
 namespace flowdlo::reference {
 
-#define FLOWDLO_DECLARE_ISA(name)               \
-  namespace name {                              \
-  void linear(const LinearBlock& block);        \
-  void narrow(const NarrowBlock& block);        \
-  void layer_norm(const LayerNormBlock& block); \
-  void attention(const AttentionBlock& block);  \
+#define FLOWDLO_ISA_KERNELS(name)                                                 \
+  namespace name {                                                                \
+  void pack(const float* weight, int out, int in, float* panels);                 \
+  void linear(const LinearBlock& block);                                          \
+  void narrow(const NarrowBlock& block);                                          \
+  void layer_norm(const LayerNormBlock& block);                                   \
+  void attention(const AttentionBlock& block);                                    \
+  constexpr Kernels kKernels{#name, pack, linear, narrow, layer_norm, attention}; \
   }
 
-FLOWDLO_DECLARE_ISA(baseline)
+FLOWDLO_ISA_KERNELS(baseline)
 #ifdef FLOWDLO_HAS_X86_ISAS
-FLOWDLO_DECLARE_ISA(avx2)
-FLOWDLO_DECLARE_ISA(avx512)
+FLOWDLO_ISA_KERNELS(avx2)
+FLOWDLO_ISA_KERNELS(avx512)
 #endif
-#undef FLOWDLO_DECLARE_ISA
+#undef FLOWDLO_ISA_KERNELS
 
-Kernels kernels_of_this_cpu() {
+std::span<const Kernels> kernels_of_this_cpu() {
 #ifdef FLOWDLO_HAS_X86_ISAS
+  static constexpr std::array<Kernels, 3> kAll{avx512::kKernels, avx2::kKernels,
+                                               baseline::kKernels};
+  const std::span<const Kernels> all(kAll);
   const bool v3 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") &&
                   __builtin_cpu_supports("bmi2");
-  if (v3 && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
-      __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl") &&
-      __builtin_cpu_supports("avx512cd")) {
-    return {"avx512", avx512::linear, avx512::narrow, avx512::layer_norm, avx512::attention};
-  }
-  if (v3) {
-    return {"avx2", avx2::linear, avx2::narrow, avx2::layer_norm, avx2::attention};
-  }
+  const bool v4 = v3 && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
+                  __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl") &&
+                  __builtin_cpu_supports("avx512cd");
+  return all.subspan(v4 ? 0 : v3 ? 1 : 2);
+#else
+  static constexpr std::array<Kernels, 1> kAll{baseline::kKernels};
+  return kAll;
 #endif
-  return {"baseline", baseline::linear, baseline::narrow, baseline::layer_norm,
-          baseline::attention};
 }
 
 }  // namespace flowdlo::reference

@@ -1,11 +1,12 @@
 // Kernels: the dense operations on one block of rows, once for each instruction set.
 //
 // linear.cpp, narrow.cpp, layer_norm.cpp and attention.cpp are compiled several times, each time
-// into the namespace named by FLOWDLO_ISA and with Eigen's own namespace renamed, so that the
-// linker cannot mix code of two instruction sets. They take plain pointers for the same reason.
+// into the namespace named by FLOWDLO_ISA, so that the linker cannot mix code of two instruction
+// sets. They take plain pointers and use no library for the same reason.
 #pragma once
 
 #include <cstddef>
+#include <span>
 
 #include "ops/program.hpp"
 
@@ -14,7 +15,7 @@ namespace flowdlo::reference {
 /// y[0:rows, :] = act(x W^T + b) + residual for columns [column, column + columns) of y.
 struct LinearBlock {
   const float* x;         ///< [rows, in]
-  const float* weight;    ///< [out, in], PyTorch's layout
+  const float* panels;    ///< the weight as pack() lays it out
   const float* bias;      ///< [out]
   const float* residual;  ///< [rows, out], or null; may be y
   float* y;               ///< [rows, out]
@@ -26,12 +27,22 @@ struct LinearBlock {
   ops::Activation activation;
 };
 
+/// Rows of a table: row r of the whole tensor takes table[r % period + offset]; see ops::Addend.
+struct AddendBlock {
+  const float* table = nullptr;  ///< null: nothing is added
+  int period = 1;
+  int offset = 0;
+};
+
 /// y = act(x W^T + b) + first + second; see ops::Narrow.
 struct NarrowBlock {
-  const float* x;       ///< [rows, x_columns]
-  const float* weight;  ///< [out, in]
+  const float* x;        ///< [rows, x_columns]
+  const float* columns;  ///< [in, out], the weight's columns
   const float* bias;
   float* y;  ///< [rows, out]
+  AddendBlock first;
+  AddendBlock second;
+  int row;  ///< of the whole tensor; the block's first
   int rows;
   int x_columns;
   int in;
@@ -65,13 +76,15 @@ inline constexpr int kMaxKeys = 256;
 /// The entries of one instruction set.
 struct Kernels {
   const char* isa;
+  /// Lays a weight [out, in] out for `linear`; out is a multiple of 64, in of 256.
+  void (*pack)(const float* weight, int out, int in, float* panels);
   void (*linear)(const LinearBlock&);
   void (*narrow)(const NarrowBlock&);
   void (*layer_norm)(const LayerNormBlock&);
   void (*attention)(const AttentionBlock&);
 };
 
-/// The widest instruction set that both this build and this processor have.
-[[nodiscard]] Kernels kernels_of_this_cpu();
+/// All that both this build and this processor have, the widest first.
+[[nodiscard]] std::span<const Kernels> kernels_of_this_cpu();
 
 }  // namespace flowdlo::reference

@@ -1,47 +1,117 @@
 // Twin of shaders/gemm: y = act(x W^T + b) + residual.
-#include <Eigen/Core>
-#include <algorithm>
-
+//
+// The weights lie in panels of kPanel columns, [panel][in][kPanel], read from end to end. A block
+// of 256 inputs of a panel stays in the nearest cache while the rows go by.
 #include "reference/gelu.hpp"
 #include "reference/isa.hpp"
+#include "reference/tile.hpp"
 
 namespace flowdlo::reference::FLOWDLO_ISA {
 namespace {
 
-using Matrix = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-using ConstStrided = Eigen::Map<const Matrix, 0, Eigen::OuterStride<>>;
+// The two depths there are: constants, so that the rows of a tile lie at fixed distances.
+constexpr int kShort = ops::kWidth;
+constexpr int kLong = 4 * ops::kWidth;
+constexpr int kDepth = 256;  // inputs of a panel taken at once
 
-ConstStrided residual(const LinearBlock& block) {
-  return {block.residual + block.column, block.rows, block.columns,
-          Eigen::OuterStride<>(block.out)};
+constexpr int kGroup = 16;  // inputs between two requests for the next weights
+constexpr int kLine = 16;   // floats of a cache line
+
+/// Requests, while one block of weights is at work, of the block after it: it comes from the
+/// third-level cache or from memory, every step again. Spread over the work, as a burst would
+/// keep the rows from coming in.
+struct Ahead {
+  const float* at;
+  std::ptrdiff_t step;  // floats, for each group of inputs
+
+  FLOWDLO_INLINE Ahead(const float* block, int row, int rows, int tile_rows)
+      : at(block + static_cast<std::ptrdiff_t>(kDepth) * kPanel * (rows + row) / rows),
+        step(static_cast<std::ptrdiff_t>(kGroup) * kPanel * tile_rows / rows) {}
+
+  FLOWDLO_INLINE void request() {
+    for (std::ptrdiff_t i = 0; i < step; i += kLine) __builtin_prefetch(at + i, 0, 2);
+    at += step;
+  }
+};
+
+enum class Last { kNo, kPlain, kGelu };
+
+/// One tile of y over one block of inputs: sums start from bias and residual, or from y.
+template <int kIn, int kRows>
+FLOWDLO_INLINE void multiply(const LinearBlock& block, const float* panel, int row, int column,
+                             int depth_begin, Last last) {
+  const auto at = [](int i, int stride) { return static_cast<std::ptrdiff_t>(i) * stride; };
+  float* const y = block.y + at(row, block.out) + column;
+  const bool residual_first =
+      block.residual != nullptr && block.activation != ops::Activation::kGelu;
+  Tile<kRows> tile;
+  for (int r = 0; r < kRows; ++r) {
+    for (int i = 0; i < kTileLanes; ++i) {
+      const std::ptrdiff_t offset = at(r, block.out) + i * kLanes;
+      if (depth_begin > 0) {
+        tile.sums[r][i] = load(y + offset);
+      } else {
+        tile.sums[r][i] = load(block.bias + column + i * kLanes);
+        if (residual_first) {
+          tile.sums[r][i] += load(block.residual + at(row, block.out) + column + offset);
+        }
+      }
+    }
+  }
+  const float* const x = block.x + at(row, kIn) + depth_begin;
+  const float* const weights = panel + at(depth_begin, kPanel);
+  Ahead ahead(weights, row, block.rows, kRows);
+  for (int k = 0; k < kDepth; k += kGroup) {
+    ahead.request();
+    accumulate(tile, x + k, kIn, 1, weights + at(k, kPanel), kPanel, kGroup);
+  }
+  for (int r = 0; r < kRows; ++r) {
+    for (int i = 0; i < kTileLanes; ++i) {
+      const std::ptrdiff_t offset = at(r, block.out) + i * kLanes;
+      Lanes result = tile.sums[r][i];
+      if (last == Last::kGelu) {
+        result = gelu(result);
+        if (block.residual != nullptr) {
+          result += load(block.residual + at(row, block.out) + column + offset);
+        }
+      }
+      store(y + offset, result);
+    }
+  }
+}
+
+template <int kIn>
+FLOWDLO_INLINE void linear_of(const LinearBlock& block) {
+  const bool with_gelu = block.activation == ops::Activation::kGelu;
+  for (int column = block.column; column < block.column + block.columns; column += kPanel) {
+    const float* const panel = block.panels + static_cast<std::ptrdiff_t>(column) * kIn;
+    for (int depth = 0; depth < kIn; depth += kDepth) {
+      const Last last = depth + kDepth < kIn ? Last::kNo : with_gelu ? Last::kGelu : Last::kPlain;
+      for_tiles(block.rows, [&](int row, auto rows) {
+        multiply<kIn, decltype(rows)::value>(block, panel, row, column, depth, last);
+      });
+    }
+  }
 }
 
 }  // namespace
 
 void linear(const LinearBlock& block) {
-  using Strided = Eigen::Map<Matrix, 0, Eigen::OuterStride<>>;
-
-  const Eigen::Map<const Matrix> x(block.x, block.rows, block.in);
-  const Eigen::Map<const Matrix> weight(
-      block.weight + static_cast<std::ptrdiff_t>(block.column) * block.in, block.columns, block.in);
-  const Eigen::Map<const Eigen::RowVectorXf> bias(block.bias + block.column, block.columns);
-  Strided y(block.y + block.column, block.rows, block.columns, Eigen::OuterStride<>(block.out));
-
-  // Without an activation the sum starts from the residual; with one the residual has to wait, and
-  // since it may be y itself, in a copy.
-  const bool gelu = block.activation == ops::Activation::kGelu;
-  Matrix added_last;
-  if (block.residual != nullptr && gelu) added_last = residual(block);
-  if (block.residual != nullptr && !gelu) {
-    y = residual(block).rowwise() + bias;
+  if (block.in == kShort) {
+    linear_of<kShort>(block);
   } else {
-    y.rowwise() = bias;
+    linear_of<kLong>(block);
   }
-  y.noalias() += x * weight.transpose();
-  if (!gelu) return;
-  auto values = y.array();
-  gelu_in_place(values);
-  if (added_last.size() > 0) y += added_last;
+}
+
+void pack(const float* weight, int out, int in, float* panels) {
+  for (int column = 0; column < out; ++column) {
+    float* const panel = panels + static_cast<std::ptrdiff_t>(column / kPanel * kPanel) * in;
+    for (int k = 0; k < in; ++k) {
+      panel[static_cast<std::ptrdiff_t>(k) * kPanel + column % kPanel] =
+          weight[static_cast<std::ptrdiff_t>(column) * in + k];
+    }
+  }
 }
 
 }  // namespace flowdlo::reference::FLOWDLO_ISA

@@ -1,23 +1,34 @@
-// Twin of shaders/narrow, without its addends: y = act(x W^T + b) for x of at most eight columns.
-#include <Eigen/Core>
-#include <algorithm>
-
+// Twin of shaders/narrow: y = act(x W^T + b) + first + second for x of at most eight columns.
 #include "reference/gelu.hpp"
 #include "reference/isa.hpp"
 
 namespace flowdlo::reference::FLOWDLO_ISA {
+namespace {
+
+/// The addend's row for row `row` of the whole tensor, or null.
+FLOWDLO_INLINE const float* row_of(const AddendBlock& addend, int row, int columns) {
+  if (addend.table == nullptr) return nullptr;
+  return addend.table + static_cast<std::ptrdiff_t>(row % addend.period + addend.offset) * columns;
+}
+
+}  // namespace
 
 void narrow(const NarrowBlock& block) {
-  using Matrix = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-  const Eigen::Map<const Matrix> weight(block.weight, block.out, block.in);
-  const Eigen::Map<const Eigen::RowVectorXf> bias(block.bias, block.out);
-  const Eigen::Map<const Matrix, 0, Eigen::OuterStride<>> x(block.x, block.rows, block.in,
-                                                            Eigen::OuterStride<>(block.x_columns));
-  Eigen::Map<Matrix> y(block.y, block.rows, block.out);
-  y = x.lazyProduct(weight.transpose()).rowwise() + bias;
-  if (block.activation == ops::Activation::kGelu) {
-    auto values = y.array();
-    gelu_in_place(values);
+  for (int row = 0; row < block.rows; ++row) {
+    const float* const x = block.x + static_cast<std::ptrdiff_t>(row) * block.x_columns;
+    float* const y = block.y + static_cast<std::ptrdiff_t>(row) * block.out;
+    const float* const first = row_of(block.first, block.row + row, block.out);
+    const float* const second = row_of(block.second, block.row + row, block.out);
+    for (int column = 0; column < block.out; column += kLanes) {
+      Lanes result = load(block.bias + column);
+      for (int i = 0; i < block.in; ++i) {
+        result += x[i] * load(block.columns + static_cast<std::ptrdiff_t>(i) * block.out + column);
+      }
+      if (block.activation == ops::Activation::kGelu) result = gelu(result);
+      if (first != nullptr) result += load(first + column);
+      if (second != nullptr) result += load(second + column);
+      store(y + column, result);
+    }
   }
 }
 

@@ -1,36 +1,46 @@
 #include "reference/program.hpp"
 
-#include <oneapi/tbb/parallel_for.h>
-#include <oneapi/tbb/task_arena.h>
-
 #include <algorithm>
 #include <cassert>
-#include <chrono>
 #include <cstring>
-#include <functional>
 
+#include "reference/aligned_floats.hpp"
 #include "reference/farthest_points.hpp"
 #include "reference/flow_step.hpp"
 #include "reference/kernels.hpp"
 #include "reference/mask_features.hpp"
 #include "reference/normalization.hpp"
+#include "reference/schedule.hpp"
 
 namespace flowdlo::reference {
 namespace {
 
 constexpr int kBlockRows = ops::kRowsPerDraw;
-constexpr int kBlockColumns = 128;  // of a linear layer's result
+constexpr int kPartColumns = 64;  // of a linear layer's result
+constexpr int kRowParts = 4;      // of a block's rows, where an operation goes row by row
+constexpr int kMostNarrow = 8;    // inputs of a layer that ops::Narrow takes
 
 struct Layer {
-  std::vector<float> weight;  // [out, in]
-  std::vector<float> bias;
+  AlignedFloats weight;  // as its kernel wants it: panels, columns, or [out, in] for the head
+  AlignedFloats bias;
+};
+
+std::ptrdiff_t floats(int rows, int columns) {
+  return static_cast<std::ptrdiff_t>(rows) * static_cast<std::ptrdiff_t>(columns);
+}
+
+/// Rows of a piece whose parts are rows.
+struct Rows {
+  explicit Rows(const Piece& piece)
+      : count(piece.blocks * kBlockRows / piece.parts),
+        first(piece.block * kBlockRows + piece.part * count) {}
+  int count;
+  int first;
 };
 
 class Program final : public ops::Program {
  public:
-  explicit Program(int threads)
-      : arena_(threads > 0 ? threads : tbb::task_arena::automatic),
-        kernels_(kernels_of_this_cpu()) {}
+  Program(int threads, const Kernels& kernels) : crew_(threads), kernels_(kernels) {}
 
   ops::Tensor input(std::string_view, int rows, int columns) override {
     return allocate(rows, columns);
@@ -45,14 +55,11 @@ class Program final : public ops::Program {
                        std::span<const float> values) override {
     const ops::Tensor tensor = allocate(rows, columns);
     assert(values.size() == tensors_[tensor.id].size());
-    std::copy(values.begin(), values.end(), tensors_[tensor.id].begin());
+    std::copy(values.begin(), values.end(), tensors_[tensor.id].data());
     return tensor;
   }
-  ops::LinearLayer layer(std::string_view, int out, int in, std::span<const float> weight,
-                         std::span<const float> bias) override {
-    layers_.push_back({{weight.begin(), weight.end()}, {bias.begin(), bias.end()}});
-    return {static_cast<std::uint32_t>(layers_.size() - 1), in, out};
-  }
+  ops::LinearLayer layer(std::string_view name, int out, int in, std::span<const float> weight,
+                         std::span<const float> bias) override;
 
   void record(const ops::Linear& op) override;
   void record(const ops::Narrow& op) override;
@@ -65,202 +72,249 @@ class Program final : public ops::Program {
   void record(const ops::MaskFeatures& op) override;
   void record(const ops::FlowStep& op) override;
   void record(const ops::Copy& op) override;
-  void stage(std::string_view name) override;
+  void stage(std::string_view name) override { schedule_.stage(name); }
 
-  Result<void> build() override { return {}; }
+  Result<void> build() override {
+    schedule_.settle(crew_);
+    return {};
+  }
   void write(ops::Tensor input, std::span<const float> values) override {
     assert(values.size() <= tensors_[input.id].size());
-    std::copy(values.begin(), values.end(), tensors_[input.id].begin());
+    std::copy(values.begin(), values.end(), tensors_[input.id].data());
   }
-  Result<void> run() override;
+  Result<void> run() override {
+    schedule_.run(crew_);
+    return {};
+  }
   void read(ops::Tensor output, std::span<float> values) const override {
     assert(values.size() <= tensors_[output.id].size());
-    std::copy_n(tensors_[output.id].begin(), values.size(), values.begin());
+    std::copy_n(tensors_[output.id].data(), values.size(), values.begin());
   }
   std::vector<std::pair<std::string, double>> stage_times_ms() const override {
-    return stage_times_ms_;
+    return schedule_.times_ms();
   }
 
  private:
-  struct Step {
-    std::size_t stage;
-    std::function<void()> work;
-  };
-
   ops::Tensor allocate(int rows, int columns) {
-    tensors_.emplace_back(static_cast<std::size_t>(rows) * static_cast<std::size_t>(columns), 0.0F);
+    tensors_.emplace_back(static_cast<std::size_t>(floats(rows, columns)));
     return {static_cast<std::uint32_t>(tensors_.size() - 1), rows, columns};
   }
-  // Tensors never move once recording has begun to run; ids stay valid while the vector grows.
+  // A tensor's memory never moves; ids stay valid while the vector grows.
   float* data(ops::Tensor tensor) { return tensors_[tensor.id].data(); }
-  std::span<float> span(ops::Tensor tensor) { return tensors_[tensor.id]; }
-  void add(std::function<void()> work) { steps_.push_back({stage_, std::move(work)}); }
-
-  /// work(block) for every block, on the arena's threads.
-  template <class Work>
-  void for_blocks(int blocks, const Work& work) {
-    tbb::parallel_for(0, blocks, work, tbb::simple_partitioner());
+  std::span<float> span(ops::Tensor tensor) { return tensors_[tensor.id].span(); }
+  /// The piece's rows of a tensor.
+  std::span<float> span(ops::Tensor tensor, const Rows& rows) {
+    return span(tensor).subspan(static_cast<std::size_t>(floats(rows.first, tensor.columns)),
+                                static_cast<std::size_t>(floats(rows.count, tensor.columns)));
+  }
+  AddendBlock addend(const std::optional<ops::Addend>& addend) {
+    if (!addend) return {};
+    return {data(addend->table), addend->period, addend->offset};
+  }
+  /// A step on the whole of its tensors.
+  void add_whole(ops::Tensor writes, std::function<void()> work) {
+    schedule_.add({.work = [work = std::move(work)](const Piece&) { work(); },
+                   .reads_beyond = {},
+                   .writes = writes.id});
   }
 
-  tbb::task_arena arena_;
+  Crew crew_;
   Kernels kernels_;
-  std::vector<std::vector<float>> tensors_;
+  std::vector<AlignedFloats> tensors_;
   std::vector<Layer> layers_;
-  std::vector<Step> steps_;
-  std::size_t stage_ = 0;
-  std::vector<std::pair<std::string, double>> stage_times_ms_;
+  FarthestPointsMemory farthest_points_;
+  Schedule schedule_;
 };
 
+ops::LinearLayer Program::layer(std::string_view, int out, int in, std::span<const float> weight,
+                                std::span<const float> bias) {
+  Layer layer{AlignedFloats(weight.size()), AlignedFloats(bias.size())};
+  std::copy(bias.begin(), bias.end(), layer.bias.data());
+  float* const to = layer.weight.data();
+  if (in <= kMostNarrow) {
+    for (int column = 0; column < out; ++column) {
+      for (int i = 0; i < in; ++i) {
+        to[floats(i, out) + column] = weight[static_cast<std::size_t>(floats(column, in) + i)];
+      }
+    }
+  } else if (out % kPartColumns == 0) {
+    kernels_.pack(weight.data(), out, in, to);
+  } else {
+    std::copy(weight.begin(), weight.end(), to);
+  }
+  layers_.push_back(std::move(layer));
+  return {static_cast<std::uint32_t>(layers_.size() - 1), in, out};
+}
+
 void Program::record(const ops::Linear& op) {
-  add([this, op] {
+  assert(op.layer.in == ops::kWidth || op.layer.in == 4 * ops::kWidth);
+  const auto work = [this, op](const Piece& piece) {
     const Layer& layer = layers_[op.layer.id];
-    const int column_blocks = op.layer.out / kBlockColumns;
-    for_blocks(op.x.rows / kBlockRows * column_blocks, [&](int block) {
-      const std::ptrdiff_t row = block / column_blocks * kBlockRows;
-      kernels_.linear({.x = data(op.x) + row * op.layer.in,
-                       .weight = layer.weight.data(),
-                       .bias = layer.bias.data(),
-                       .residual = op.residual ? data(*op.residual) + row * op.layer.out : nullptr,
-                       .y = data(op.y) + row * op.layer.out,
-                       .rows = kBlockRows,
-                       .in = op.layer.in,
-                       .out = op.layer.out,
-                       .column = block % column_blocks * kBlockColumns,
-                       .columns = kBlockColumns,
-                       .activation = op.activation});
-    });
-  });
+    const int row = piece.block * kBlockRows;
+    const int columns = op.layer.out / piece.parts;
+    kernels_.linear(
+        {.x = data(op.x) + floats(row, op.layer.in),
+         .panels = layer.weight.data(),
+         .bias = layer.bias.data(),
+         .residual = op.residual ? data(*op.residual) + floats(row, op.layer.out) : nullptr,
+         .y = data(op.y) + floats(row, op.layer.out),
+         .rows = piece.blocks * kBlockRows,
+         .in = op.layer.in,
+         .out = op.layer.out,
+         .column = piece.part * columns,
+         .columns = columns,
+         .activation = op.activation});
+  };
+  schedule_.add({.blocks = op.x.rows / kBlockRows,
+                 .parts = op.layer.out / kPartColumns,
+                 .work = work,
+                 .reads_beyond = {},
+                 .writes = op.y.id});
 }
 
 void Program::record(const ops::Narrow& op) {
-  add([this, op] {
+  std::vector<std::uint32_t> tables;
+  for (const auto& addend : {op.first, op.second}) {
+    const bool own_row = addend && addend->offset == 0 && addend->period >= op.x.rows;
+    if (addend && !own_row) tables.push_back(addend->table.id);
+  }
+  const auto work = [this, op](const Piece& piece) {
     const Layer& layer = layers_[op.layer.id];
-    for_blocks(op.x.rows / kBlockRows, [&](int block) {
-      const std::ptrdiff_t first_row = static_cast<std::ptrdiff_t>(block) * kBlockRows;
-      float* y = data(op.y) + first_row * op.layer.out;
-      kernels_.narrow({.x = data(op.x) + first_row * op.x.columns,
-                       .weight = layer.weight.data(),
-                       .bias = layer.bias.data(),
-                       .y = y,
-                       .rows = kBlockRows,
-                       .x_columns = op.x.columns,
-                       .in = op.layer.in,
-                       .out = op.layer.out,
-                       .activation = op.activation});
-      for (const auto& addend : {op.first, op.second}) {
-        if (!addend) continue;
-        for (int row = 0; row < kBlockRows; ++row) {
-          const auto table_row = (first_row + row) % addend->period + addend->offset;
-          const float* added = data(addend->table) + table_row * op.layer.out;
-          for (int i = 0; i < op.layer.out; ++i) y[row * op.layer.out + i] += added[i];
-        }
-      }
-    });
-  });
+    const Rows rows(piece);
+    kernels_.narrow({.x = data(op.x) + floats(rows.first, op.x.columns),
+                     .columns = layer.weight.data(),
+                     .bias = layer.bias.data(),
+                     .y = data(op.y) + floats(rows.first, op.layer.out),
+                     .first = addend(op.first),
+                     .second = addend(op.second),
+                     .row = rows.first,
+                     .rows = rows.count,
+                     .x_columns = op.x.columns,
+                     .in = op.layer.in,
+                     .out = op.layer.out,
+                     .activation = op.activation});
+  };
+  schedule_.add({.blocks = op.x.rows / kBlockRows,
+                 .parts = kRowParts,
+                 .work = work,
+                 .reads_beyond = std::move(tables),
+                 .writes = op.y.id});
 }
 
 void Program::record(const ops::LayerNorm& op) {
-  add([this, op] {
-    for_blocks(op.x.rows / kBlockRows, [&](int block) {
-      const std::ptrdiff_t offset = static_cast<std::ptrdiff_t>(block) * kBlockRows * ops::kWidth;
-      kernels_.layer_norm({.x = data(op.x) + offset,
-                           .gain = data(op.gain),
-                           .shift = data(op.shift),
-                           .y = data(op.y) + offset,
-                           .rows = kBlockRows});
-    });
-  });
+  const auto work = [this, op](const Piece& piece) {
+    const Rows rows(piece);
+    const std::ptrdiff_t offset = floats(rows.first, ops::kWidth);
+    kernels_.layer_norm({.x = data(op.x) + offset,
+                         .gain = data(op.gain),
+                         .shift = data(op.shift),
+                         .y = data(op.y) + offset,
+                         .rows = rows.count});
+  };
+  schedule_.add({.blocks = op.x.rows / kBlockRows,
+                 .parts = kRowParts,
+                 .work = work,
+                 .reads_beyond = {op.gain.id, op.shift.id},
+                 .writes = op.y.id});
 }
 
 void Program::record(const ops::Attention& op) {
-  add([this, op] {
-    for_blocks(op.query.rows / kBlockRows * ops::kHeads, [&](int block) {
-      const std::ptrdiff_t row = block / ops::kHeads * kBlockRows;
-      const int channel = block % ops::kHeads * ops::kHeadWidth;
-      const float* memory = data(op.key_value) + (op.per_draw ? row * op.key_value.columns : 0);
-      kernels_.attention(
-          {.query = data(op.query) + row * op.query.columns + op.query_column + channel,
-           .key = memory + op.key_column + channel,
-           .value = memory + op.value_column + channel,
-           .key_valid = op.key_valid ? data(*op.key_valid) : nullptr,
-           .out = data(op.out) + row * ops::kWidth + channel,
-           .query_stride = op.query.columns,
-           .key_value_stride = op.key_value.columns,
-           .out_stride = ops::kWidth,
-           .keys = op.per_draw ? ops::kRowsPerDraw : op.key_value.rows});
-    });
-  });
+  const auto head_of = [this, op](int block, int head) {
+    const int row = block * kBlockRows;
+    const int channel = head * ops::kHeadWidth;
+    const float* memory =
+        data(op.key_value) + (op.per_draw ? floats(row, op.key_value.columns) : 0);
+    kernels_.attention(
+        {.query = data(op.query) + floats(row, op.query.columns) + op.query_column + channel,
+         .key = memory + op.key_column + channel,
+         .value = memory + op.value_column + channel,
+         .key_valid = op.key_valid ? data(*op.key_valid) : nullptr,
+         .out = data(op.out) + floats(row, ops::kWidth) + channel,
+         .query_stride = op.query.columns,
+         .key_value_stride = op.key_value.columns,
+         .out_stride = ops::kWidth,
+         .keys = op.per_draw ? ops::kRowsPerDraw : op.key_value.rows});
+  };
+  const auto work = [head_of](const Piece& piece) {
+    const int heads = ops::kHeads / piece.parts;
+    for (int block = piece.block; block < piece.block + piece.blocks; ++block) {
+      for (int head = 0; head < heads; ++head) head_of(block, piece.part * heads + head);
+    }
+  };
+  std::vector<std::uint32_t> beyond;
+  if (!op.per_draw) beyond.push_back(op.key_value.id);
+  if (op.key_valid) beyond.push_back(op.key_valid->id);
+  schedule_.add({.blocks = op.query.rows / kBlockRows,
+                 .parts = ops::kHeads,
+                 .work = work,
+                 .reads_beyond = std::move(beyond),
+                 .writes = op.out.id});
 }
 
 void Program::record(const ops::FarthestPoints& op) {
-  add([this, op] {
+  farthest_points_.reserve(static_cast<std::size_t>(op.cloud.rows));
+  add_whole(op.visible, [this, op] {
     ops::FrameParams params;
     std::memcpy(&params, data(op.params), sizeof(params));
     const float centroid[3] = {params.centroid_x, params.centroid_y, params.centroid_z};
     farthest_points(span(op.cloud), static_cast<int>(params.point_count), centroid,
-                    span(op.visible));
+                    span(op.visible), farthest_points_);
   });
 }
 
 void Program::record(const ops::FrameNormalization& op) {
-  add([this, op] { frame_normalization(span(op.points), span(op.norm)); });
+  add_whole(op.norm, [this, op] { frame_normalization(span(op.points), span(op.norm)); });
 }
 
 void Program::record(const ops::Normalize& op) {
-  add([this, op] { normalize(span(op.points), span(op.norm), span(op.out)); });
+  add_whole(op.out, [this, op] { normalize(span(op.points), span(op.norm), span(op.out)); });
 }
 
 void Program::record(const ops::Denormalize& op) {
-  add([this, op] { denormalize(span(op.state), span(op.norm), span(op.out)); });
+  add_whole(op.out, [this, op] { denormalize(span(op.state), span(op.norm), span(op.out)); });
 }
 
 void Program::record(const ops::MaskFeatures& op) {
-  add([this, op] {
+  const auto work = [this, op](const Piece& piece) {
     ops::FrameParams params;
     std::memcpy(&params, data(op.params), sizeof(params));
-    mask_features(span(op.state), span(op.norm), params, span(op.field),
-                  op.depth ? span(*op.depth) : std::span<float>{}, span(op.out));
-  });
+    const Rows rows(piece);
+    mask_features(span(op.state, rows), span(op.norm), params, span(op.field),
+                  op.depth ? span(*op.depth) : std::span<float>{}, span(op.out, rows));
+  };
+  schedule_.add({.blocks = op.state.rows / kBlockRows,
+                 .parts = kRowParts,
+                 .work = work,
+                 .reads_beyond = {op.norm.id, op.params.id, op.field.id},
+                 .writes = op.out.id});
 }
 
 void Program::record(const ops::FlowStep& op) {
-  add([this, op] {
+  const auto work = [this, op](const Piece& piece) {
     const Layer& head = layers_[op.head.id];
-    flow_step(op, span(op.hidden), head.weight, head.bias, span(op.prior), span(op.state));
-  });
+    const Rows rows(piece);
+    flow_step(op, span(op.hidden, rows), head.weight.span(), head.bias.span(), span(op.prior, rows),
+              span(op.state, rows));
+  };
+  schedule_.add({.blocks = op.state.rows / kBlockRows,
+                 .parts = kRowParts,
+                 .work = work,
+                 .reads_beyond = {},
+                 .writes = op.state.id});
 }
 
 void Program::record(const ops::Copy& op) {
-  add([this, op] { std::copy_n(data(op.from), span(op.from).size(), data(op.to)); });
-}
-
-void Program::stage(std::string_view name) {
-  const auto found = std::find_if(stage_times_ms_.begin(), stage_times_ms_.end(),
-                                  [&](const auto& entry) { return entry.first == name; });
-  stage_ = static_cast<std::size_t>(found - stage_times_ms_.begin());
-  if (found == stage_times_ms_.end()) stage_times_ms_.emplace_back(name, 0.0);
-}
-
-Result<void> Program::run() {
-  using Clock = std::chrono::steady_clock;
-  for (auto& entry : stage_times_ms_) entry.second = 0;
-  arena_.execute([this] {
-    for (const Step& step : steps_) {
-      const auto begin = Clock::now();
-      step.work();
-      if (step.stage < stage_times_ms_.size()) {
-        stage_times_ms_[step.stage].second +=
-            std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
-      }
-    }
-  });
-  return {};
+  add_whole(op.to, [this, op] { std::copy_n(data(op.from), span(op.from).size(), data(op.to)); });
 }
 
 }  // namespace
 
 std::unique_ptr<ops::Program> create_program(int threads) {
-  return std::make_unique<Program>(threads);
+  return create_program(threads, kernels_of_this_cpu().front());
+}
+
+std::unique_ptr<ops::Program> create_program(int threads, const Kernels& kernels) {
+  return std::make_unique<Program>(threads, kernels);
 }
 
 }  // namespace flowdlo::reference

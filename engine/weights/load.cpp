@@ -63,6 +63,8 @@ Metadata metadata_of(const fdw::Metadata& stored, std::vector<std::string>& faul
   metadata.mean = {stored.mean()->x(), stored.mean()->y(), stored.mean()->z()};
   metadata.scale = stored.scale();
   metadata.trained = switched("trained", stored.trained(), false, faults);
+  metadata.fast_steps = stored.fast_steps();
+  metadata.fast_draws = stored.fast_draws();
   Variant& variant = metadata.variant;
   variant.parameterization = shifted<ops::Parameterization>(stored.parameterization());
   variant.local_channels = stored.local_channels();

@@ -17,6 +17,8 @@ using ops::Parameterization;
 template <class Value, std::size_t kCount>
 using Names = std::array<std::pair<Value, std::string_view>, kCount>;
 
+constexpr int kMostEvaluations = 64;  // steps, or draws, that an estimator takes
+
 constexpr Names<bool, 2> kSwitches{{{false, "false"}, {true, "true"}}};
 constexpr Names<Parameterization, 3> kParameterizations{
     {{Parameterization::kVelocity, "velocity"},
@@ -162,22 +164,26 @@ Variant usable(const Variant& variant) {
 std::map<std::string, std::string> to_fields(const Metadata& metadata) {
   const Variant& variant = metadata.variant;
   const auto& mean = metadata.mean;
-  return {{"name", metadata.name},
-          {"version", metadata.version},
-          {"training_data", metadata.training_data},
-          {"licence", metadata.licence},
-          {"notes", metadata.notes},
-          {"mean", fmt::format("{},{},{}", mean[0], mean[1], mean[2])},
-          {"scale", fmt::format("{}", metadata.scale)},
-          {"trained", name_in(kSwitches, metadata.trained)},
-          {"parameterization", name_in(kParameterizations, variant.parameterization)},
-          {"local_channels", fmt::format("{}", variant.local_channels)},
-          {"visible_points", name_in(kSwitches, variant.visible_points)},
-          {"head_channels", fmt::format("{}", variant.head_channels)},
-          {"normalization", name_in(kNormalizations, variant.normalization)},
-          {"prior_kind", name_in(kPriorKinds, variant.prior_kind)},
-          {"prior_sd", fmt::format("{}", variant.prior_sd)},
-          {"local_features_version", fmt::format("{}", variant.local_features_version)}};
+  std::map<std::string, std::string> fields{
+      {"name", metadata.name},
+      {"version", metadata.version},
+      {"training_data", metadata.training_data},
+      {"licence", metadata.licence},
+      {"notes", metadata.notes},
+      {"mean", fmt::format("{},{},{}", mean[0], mean[1], mean[2])},
+      {"scale", fmt::format("{}", metadata.scale)},
+      {"trained", name_in(kSwitches, metadata.trained)},
+      {"parameterization", name_in(kParameterizations, variant.parameterization)},
+      {"local_channels", fmt::format("{}", variant.local_channels)},
+      {"visible_points", name_in(kSwitches, variant.visible_points)},
+      {"head_channels", fmt::format("{}", variant.head_channels)},
+      {"normalization", name_in(kNormalizations, variant.normalization)},
+      {"prior_kind", name_in(kPriorKinds, variant.prior_kind)},
+      {"prior_sd", fmt::format("{}", variant.prior_sd)},
+      {"local_features_version", fmt::format("{}", variant.local_features_version)}};
+  if (metadata.fast_steps != 0) fields["fast_steps"] = fmt::format("{}", metadata.fast_steps);
+  if (metadata.fast_draws != 0) fields["fast_draws"] = fmt::format("{}", metadata.fast_draws);
+  return fields;
 }
 
 Metadata from_fields(const std::map<std::string, std::string>& fields,
@@ -201,6 +207,8 @@ Metadata from_fields(const std::map<std::string, std::string>& fields,
   read.choice("prior_kind", kPriorKinds, variant.prior_kind);
   read.number("prior_sd", variant.prior_sd);
   read.number("local_features_version", variant.local_features_version);
+  if (fields.count("fast_steps") != 0) read.number("fast_steps", metadata.fast_steps);
+  if (fields.count("fast_draws") != 0) read.number("fast_draws", metadata.fast_draws);
   return metadata;
 }
 
@@ -237,6 +245,12 @@ std::vector<std::string> faults(const Metadata& metadata) {
   if (variant.local_features_version < 1 || variant.local_features_version > kNewestLocalFeatures) {
     list.push_back(fault("local_features_version", fmt::format("1 to {}", kNewestLocalFeatures),
                          text(variant.local_features_version)));
+  }
+  for (const auto& [field, value] : {std::pair{"fast_steps", metadata.fast_steps},
+                                     std::pair{"fast_draws", metadata.fast_draws}}) {
+    if (value < 0 || value > kMostEvaluations) {
+      list.push_back(fault(field, fmt::format("0 to {}", kMostEvaluations), text(value)));
+    }
   }
   return list;
 }

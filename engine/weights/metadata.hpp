@@ -17,7 +17,8 @@ inline constexpr int kNewestLocalFeatures = 1;
 [[nodiscard]] std::map<std::string, std::string> to_fields(const Metadata& metadata);
 
 /// The reverse. Missing or unreadable fields go to `faults`, and their values stay at the defaults.
-/// Fields of other names are left alone; `notes` may be missing.
+/// Fields of other names are left alone; `notes`, `fast_steps` and
+/// `fast_draws` may be missing.
 [[nodiscard]] Metadata from_fields(const std::map<std::string, std::string>& fields,
                                    std::vector<std::string>& faults);
 

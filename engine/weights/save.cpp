@@ -37,7 +37,7 @@ flatbuffers::Offset<fdw::Metadata> add_metadata(flatbuffers::FlatBufferBuilder& 
       switched(variant.visible_points), variant.head_channels,
       shifted<fdw::Normalization>(variant.normalization),
       shifted<fdw::PriorKind>(variant.prior_kind), variant.prior_sd, variant.local_features_version,
-      builder.CreateString(sha256));
+      builder.CreateString(sha256), metadata.fast_steps, metadata.fast_draws);
 }
 
 flatbuffers::Offset<fdw::Tensor> add_tensor(flatbuffers::FlatBufferBuilder& builder,

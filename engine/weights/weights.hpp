@@ -23,6 +23,8 @@ struct Metadata {
   std::array<float, 3> mean{};  ///< mu of Eq. (3.8), metres; used by global normalisation
   float scale = 1;              ///< sigma_iso of Eq. (3.9), metres
   bool trained = false;         ///< false: seeded noise
+  int fast_steps = 0;           ///< K of quality fast, measured to lose nothing; 0: as full
+  int fast_draws = 0;           ///< ... and D
   Variant variant;
 };
 

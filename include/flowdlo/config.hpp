@@ -22,6 +22,12 @@ enum class GateChoice {
   kCalibrated,  ///< a score fitted on synthetic scenes, over draws, prior and alternatives
 };
 
+/// How much of the model runs a frame.
+enum class Quality {
+  kFull,  ///< Config::euler_steps and Config::draws
+  kFast,  ///< the K and D that, measured, lose nothing: the weights' metadata hold them
+};
+
 struct Config {
   /// A .fdw file. Empty: `share/flowdlo/flowdlo.fdw` beside the library's installation.
   std::filesystem::path weights;
@@ -31,9 +37,10 @@ struct Config {
   /// else: part of a device's name, or its UUID, as `flowdlo devices` prints them.
   std::string device = "auto";
 
-  int euler_steps = 10;    ///< K in Eq. (3.26); 1..64
-  int draws = 4;           ///< Gaussian sources a frame, Sec. 4.1.3; 1..64
-  std::uint64_t seed = 0;  ///< of the sources x_0; same seed and device: the same bits
+  Quality quality = Quality::kFull;  ///< kFast takes the place of the next two
+  int euler_steps = 10;              ///< K in Eq. (3.26); 1..64
+  int draws = 4;                     ///< Gaussian sources a frame, Sec. 4.1.3; 1..64
+  std::uint64_t seed = 0;            ///< of the sources x_0; same seed and device: the same bits
   PriorChoice prior = PriorChoice::kOfWeights;
   GateChoice gate = GateChoice::kOfWeights;
   double rope_length_m = 0;  ///< of the whole rope, where known; 0: unknown. Helps at crossings.

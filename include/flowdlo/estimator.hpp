@@ -29,6 +29,10 @@ class FLOWDLO_EXPORT Estimator {
   /// "cpu", or the name of the Vulkan device in use.
   [[nodiscard]] const std::string& device() const;
 
+  /// K and D in use: Config's, or those that Quality::kFast stands for.
+  [[nodiscard]] int euler_steps() const;
+  [[nodiscard]] int draws() const;
+
   Estimator(Estimator&&) noexcept;
   Estimator& operator=(Estimator&&) noexcept;
   Estimator(const Estimator&) = delete;

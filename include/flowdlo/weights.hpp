@@ -32,6 +32,12 @@ struct WeightsInfo {
 [[nodiscard]] FLOWDLO_EXPORT Result<void> export_safetensors(const std::filesystem::path& weights,
                                                              const std::filesystem::path& output);
 
+/// Writes `weights` again with the K and D that quality fast stands for (Config::quality): 1..64,
+/// or 0 for those of full. `output` may be `weights`. Fails with kIo or kBadWeights.
+[[nodiscard]] FLOWDLO_EXPORT Result<void> set_fast_quality(const std::filesystem::path& weights,
+                                                           int steps, int draws,
+                                                           const std::filesystem::path& output);
+
 /// .safetensors (tensor names of spec section 6; metadata keys of the schema) to .fdw.
 /// Fails with kIo or kBadWeights; no partial file stays.
 [[nodiscard]] FLOWDLO_EXPORT Result<void> import_safetensors(const std::filesystem::path& input,

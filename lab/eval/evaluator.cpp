@@ -16,6 +16,7 @@ namespace {
 Config prior_config(const Config& config, PriorChoice prior) {
   Config quick = config;
   quick.prior = prior;
+  quick.quality = Quality::kFull;
   quick.draws = 1;  // its prediction is not looked at
   quick.euler_steps = 1;
   return quick;

@@ -27,6 +27,7 @@ class Evaluator {
                           const std::filesystem::path& path, const std::string& name);
 
   [[nodiscard]] const std::string& device() const { return estimator_.device(); }
+  [[nodiscard]] const Estimator& estimator() const { return estimator_; }
 
  private:
   Evaluator(Estimator estimator, Estimator thesis, Estimator refined, Contenders contenders);

@@ -37,6 +37,10 @@ Tensor feed_forward(const Tensor& normed, const nn::Linear& up, const nn::Linear
   return dense(torch::gelu(dense(normed, up, compute)), down, compute);
 }
 
+nn::Linear layer(const nn::Sequential& block, std::size_t index) {
+  return nn::Linear(std::dynamic_pointer_cast<nn::LinearImpl>(block->ptr(index)));
+}
+
 /// [B, rows, parts * 256] to `parts` tensors [B * 8, rows, 32].
 std::vector<Tensor> heads(const Tensor& x, std::int64_t parts) {
   const auto batch = x.size(0);
@@ -91,17 +95,21 @@ CrossAttentionImpl::CrossAttentionImpl() {
   down = register_module("down", nn::Linear(kFeedForward, kWidth));
 }
 
-Tensor CrossAttentionImpl::forward(Tensor tokens, const Tensor& context, const Tensor& valid,
-                                   torch::ScalarType compute) {
+PointMemory CrossAttentionImpl::memory(const Tensor& tokens_of_points, const Tensor& valid,
+                                       torch::ScalarType compute) {
   constexpr double kMasked =
       -1e30;  // exp of it is 0; minus infinity would make NaN of no key at all
+  const auto key_value = heads(dense(norm_points(tokens_of_points), kv, compute), 2);
+  const Tensor any = valid.amax(1).view({-1, 1, 1});  // no valid point: the attention gives 0
+  return {key_value[0], key_value[1], (1 - valid) * kMasked, any.to(compute)};
+}
+
+Tensor CrossAttentionImpl::forward(Tensor tokens, const PointMemory& memory,
+                                   torch::ScalarType compute) {
   const auto outer = tokens.scalar_type();
   const auto query = heads(dense(norm_query(tokens), q, compute), 1);
-  const auto key_value = heads(dense(norm_points(context), kv, compute), 2);
-  const Tensor bias = (1 - valid) * kMasked;
-  const Tensor any = valid.amax(1).view({-1, 1, 1});  // no valid point: the attention gives 0
   const Tensor attended =
-      attend(query[0], key_value[0], key_value[1], bias, outer) * any.to(compute);
+      attend(query[0], memory.key, memory.value, memory.bias, outer) * memory.any;
   tokens = tokens + dense(attended, out, compute).to(outer);
   return tokens + feed_forward(norm_ffn(tokens), up, down, compute).to(outer);
 }
@@ -144,25 +152,35 @@ VelocityModelImpl::VelocityModelImpl(const weights::Variant& kind) : variant(kin
   head = register_module("head", nn::Linear(kWidth, variant.head_channels));
 }
 
-Tensor VelocityModelImpl::forward(const ModelInput& input, torch::ScalarType compute) {
-  const auto layer = [](const nn::Sequential& block, std::size_t index) {
-    return nn::Linear(std::dynamic_pointer_cast<nn::LinearImpl>(block->ptr(index)));
-  };
+PointMemory VelocityModelImpl::context(const ModelInput& input, torch::ScalarType compute) {
+  if (!variant.visible_points) return {};
+  const auto outer = input.points.scalar_type();
+  const Tensor first = torch::gelu(exact(input.points, layer(points, 0)).to(compute));
+  const Tensor tokens = dense(first, layer(points, 2), compute).to(outer);  // g_m
+  PointMemory memory = cross->memory(tokens, input.valid, compute);
+  const auto copies = input.prior.size(0) / input.points.size(0);
+  if (copies == 1) return memory;
+  return {memory.key.repeat({copies, 1, 1}), memory.value.repeat({copies, 1, 1}),
+          memory.bias.repeat({copies, 1}), memory.any.repeat({copies, 1, 1})};
+}
+
+Tensor VelocityModelImpl::forward(const ModelInput& input, const PointMemory& memory,
+                                  torch::ScalarType compute) {
   const auto outer = input.state.scalar_type();
   const Tensor time_token = time->forward(sinusoids(input.time)).unsqueeze(1);
   Tensor tokens = exact(input.state, state) + time_token + node + exact(input.prior, prior) +
-                  exact(input.support, support);  // Eq. (3.13)
-  if (variant.visible_points) {
-    const Tensor first = torch::gelu(exact(input.points, layer(points, 0)).to(compute));
-    const Tensor context = dense(first, layer(points, 2), compute).to(outer);  // g_m
-    tokens = cross->forward(tokens, context, input.valid, compute);            // Eq. (3.14)
-  }
+                  exact(input.support, support);                                 // Eq. (3.13)
+  if (variant.visible_points) tokens = cross->forward(tokens, memory, compute);  // Eq. (3.14)
   const Tensor first = torch::gelu(exact(input.features, layer(local, 0)).to(compute));
   tokens = tokens + gamma * dense(first, layer(local, 2), compute).to(outer);  // Eq. (3.15)
   for (const auto& block : *encoder) {
     tokens = block->as<EncoderBlock>()->forward(tokens, compute);
   }
   return exact(norm(tokens), head);
+}
+
+Tensor VelocityModelImpl::forward(const ModelInput& input, torch::ScalarType compute) {
+  return forward(input, context(input, compute), compute);
 }
 
 Tensor velocity(const weights::Variant& variant, const Tensor& output, const Tensor& state,

@@ -24,12 +24,21 @@ struct ModelInput {
   torch::Tensor features;  ///< [B, 64, 6 or 8] phi_M(u_j)
 };
 
+/// What the visible points contribute to every step of a frame.
+struct PointMemory {
+  torch::Tensor key, value;  ///< [B * 8, 256, 32]
+  torch::Tensor bias;        ///< [B, 256]: 0 where valid, otherwise beyond any score
+  torch::Tensor any;         ///< [B, 1, 1]: 0 where no point is valid
+};
+
 /// Eq. (3.14) and its FFN, pre-norm.
 struct CrossAttentionImpl : torch::nn::Module {
   CrossAttentionImpl();
-  /// tokens [B, 64, 256], points' tokens g [B, 256, 256], valid [B, 256].
-  torch::Tensor forward(torch::Tensor tokens, const torch::Tensor& context,
-                        const torch::Tensor& valid, torch::ScalarType compute);
+  /// points' tokens g [B, 256, 256], valid [B, 256].
+  PointMemory memory(const torch::Tensor& tokens_of_points, const torch::Tensor& valid,
+                     torch::ScalarType compute);
+  /// tokens [B, 64, 256]; `memory` of the same B.
+  torch::Tensor forward(torch::Tensor tokens, const PointMemory& memory, torch::ScalarType compute);
 
   torch::nn::LayerNorm norm_query{nullptr}, norm_points{nullptr}, norm_ffn{nullptr};
   torch::nn::Linear q{nullptr}, kv{nullptr}, out{nullptr}, up{nullptr}, down{nullptr};
@@ -51,6 +60,12 @@ struct VelocityModelImpl : torch::nn::Module {
 
   /// The head's raw output [B, 64, 3 or 4].
   torch::Tensor forward(const ModelInput& input, torch::ScalarType compute);
+
+  /// The same in two parts, for a sampler: points' keys and values do not depend on the state.
+  /// Points of one sample [1, 256, 3] serve all B samples of `prior`.
+  PointMemory context(const ModelInput& input, torch::ScalarType compute);
+  torch::Tensor forward(const ModelInput& input, const PointMemory& memory,
+                        torch::ScalarType compute);
 
   weights::Variant variant;
   torch::nn::Linear state{nullptr}, prior{nullptr}, support{nullptr}, head{nullptr};

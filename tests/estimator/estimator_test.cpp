@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "flowdlo/weights.hpp"
+#include "frame/temporary_folder.hpp"
 #include "support/wave_frame.hpp"
 
 namespace flowdlo {
@@ -53,6 +55,31 @@ TEST(Create, AutoAlwaysFindsADevice) {
   Config config = cpu();
   config.device = "auto";
   EXPECT_FALSE(make(config).device().empty());
+}
+
+TEST(Create, QualityFastTakesStepsAndDrawsFromTheWeights) {
+  const test::TemporaryFolder scratch;
+  const auto file = scratch.path() / "fast.fdw";
+  ASSERT_TRUE(set_fast_quality(FLOWDLO_WEIGHTS, 3, 1, file));
+  Config config = cpu();
+  config.weights = file;
+  EXPECT_EQ(make(config).euler_steps(), 2) << "full is what Config says";
+  config.quality = Quality::kFast;
+  auto estimator = make(config);
+  EXPECT_EQ(estimator.euler_steps(), 3);
+  EXPECT_EQ(estimator.draws(), 1);
+  const WaveFrame wave;
+  const auto estimate = estimator.estimate(wave.frame());
+  ASSERT_TRUE(estimate) << estimate.error().message;
+  EXPECT_EQ(estimate->draws.size(), 1U);
+}
+
+TEST(Create, QualityFastOfWeightsThatSayNothingIsFull) {
+  Config config = cpu();
+  config.quality = Quality::kFast;
+  const auto estimator = make(config);
+  EXPECT_EQ(estimator.euler_steps(), 10);
+  EXPECT_EQ(estimator.draws(), 4);
 }
 
 TEST(Estimate, FollowsTheRopeFromEndToEnd) {

@@ -49,6 +49,22 @@ TEST(EvalCommand, WritesTablesRowsAndPlots) {
   EXPECT_THAT(test::read_text(out / "rows.csv"), HasSubstr("\ntwo,"));
 }
 
+TEST(EvalCommand, SweepMeasuresErrorAgainstStepsAndDraws) {
+  const TemporaryFolder scratch;
+  const fs::path data_set = scratch.path() / "scenes";
+  fs::create_directory(data_set);
+  save_scene(data_set, "one", 1);
+  const auto out = scratch.path() / "out";
+  const auto outcome =
+      run_flowdlo(scratch.path(), {"eval", data_set.string(), "--out", out.string(), "--device",
+                                   "cpu", "--sweep-steps", "1", "--sweep-draws", "1,2"});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_EQ(outcome.out, test::read_text(out / "sweep.md"));
+  for (const char* row : {"| 10 | 4 |", "| 1 | 1 |", "| 1 | 2 |"}) {
+    EXPECT_THAT(outcome.out, HasSubstr(row));
+  }
+}
+
 TEST(EvalCommand, BadFrameCostsOneRow) {
   const TemporaryFolder scratch;
   const fs::path data_set = scratch.path() / "scenes";

@@ -31,6 +31,23 @@ TEST(WeightsCommand, ExportAndImportKeepEveryTensor) {
             run_flowdlo(scratch.path(), {"weights", "info", FLOWDLO_WEIGHTS}).out);
 }
 
+TEST(WeightsCommand, SetFastWritesWhatQualityFastStandsForAndNothingElse) {
+  const TemporaryFolder scratch;
+  const auto file = (scratch.path() / "fast.fdw").string();
+  const auto set = [&](const std::string& steps, const std::string& draws) {
+    return run_flowdlo(scratch.path(), {"weights", "set-fast", FLOWDLO_WEIGHTS, file, "--steps",
+                                        steps, "--draws", draws});
+  };
+  ASSERT_EQ(set("2", "1").exit_code, 0);
+  const auto info = run_flowdlo(scratch.path(), {"weights", "info", file}).out;
+  EXPECT_THAT(info, testing::ContainsRegex("fast_steps +2"));
+  EXPECT_THAT(info, testing::ContainsRegex("fast_draws +1"));
+  ASSERT_EQ(set("0", "0").exit_code, 0);
+  EXPECT_EQ(run_flowdlo(scratch.path(), {"weights", "info", file}).out,
+            run_flowdlo(scratch.path(), {"weights", "info", FLOWDLO_WEIGHTS}).out);
+  EXPECT_EQ(set("65", "1").exit_code, 2);
+}
+
 TEST(WeightsCommand, FileThatIsNoneEndsWithOneAndNamesIt) {
   const TemporaryFolder scratch;
   const auto file = (scratch.path() / "none.fdw").string();

@@ -39,6 +39,18 @@ TEST(MetadataFields, ReadBackExactly) {
   EXPECT_EQ(to_fields(back), to_fields(sample()));
 }
 
+TEST(MetadataFields, FastQualityIsThereWhereItIsSet) {
+  EXPECT_EQ(to_fields(sample()).count("fast_steps"), 0U);
+  auto metadata = sample();
+  metadata.fast_steps = 2;
+  metadata.fast_draws = 1;
+  std::vector<std::string> list;
+  const auto back = from_fields(to_fields(metadata), list);
+  EXPECT_THAT(list, IsEmpty());
+  EXPECT_EQ(back.fast_steps, 2);
+  EXPECT_EQ(back.fast_draws, 1);
+}
+
 TEST(MetadataFields, EveryMissingFieldButNotesIsAFault) {
   std::vector<std::string> list;
   static_cast<void>(from_fields({}, list));
@@ -73,6 +85,14 @@ TEST(MetadataFaults, ImpossibleNumbersAreAllNamed) {
               ElementsAre(HasSubstr("mean"), HasSubstr("scale"), HasSubstr("local_channels"),
                           HasSubstr("head_channels"), HasSubstr("prior_sd"),
                           HasSubstr("local_features_version")));
+}
+
+TEST(MetadataFaults, FastQualityBeyondWhatAnEstimatorTakesIsOne) {
+  auto metadata = sample();
+  metadata.fast_steps = 65;
+  metadata.fast_draws = -1;
+  EXPECT_THAT(faults(metadata), ElementsAre(HasSubstr("fast_steps: expected 0 to 64, got 65"),
+                                            HasSubstr("fast_draws")));
 }
 
 TEST(MetadataFaults, EmptyNameIsOne) {
