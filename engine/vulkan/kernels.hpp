@@ -14,7 +14,6 @@ namespace flowdlo::vulkan {
 struct GemmCall {
   struct Constants {
     int lanes;
-    int depth;
     int tile_rows;
     int tile_columns;
     int unroll;
@@ -26,8 +25,8 @@ struct GemmCall {
 
   Texels x;
   Texels weight;
-  Scalars bias;
-  Scalars residual;
+  Texels bias;
+  Texels residual;
   Writes y;
   [[nodiscard]] std::array<Binding, 5> bindings() const { return {x, weight, bias, residual, y}; }
 };

@@ -29,7 +29,7 @@ void record_linear(Plan& plan, const ops::Linear& op, const DenseLayer& layer) {
   const GemmTile tile = gemm_tile(plan.device().facts());
   const int panel_texels = layer.in / 4 * kPanel;
   const int most_panels = std::max(plan.most_texels() / panel_texels, 1);
-  const int row_texels = std::max(layer.in / 4, op.residual ? layer.out : 1);
+  const int row_texels = std::max(layer.in, op.residual ? layer.out : 1) / 4;
 
   for (const Window rows : Plan::windows(op.x.rows, plan.most_texels() / row_texels)) {
     for (int panel = 0; panel < layer.out / kPanel; panel += most_panels) {
@@ -45,13 +45,12 @@ void record_linear(Plan& plan, const ops::Linear& op, const DenseLayer& layer) {
           .y = {plan.rows(op.y, rows)}};
       plan.dispatch(call,
                     {.lanes = plan.lanes(),
-                     .depth = layer.in,
                      .tile_rows = tile.rows,
                      .tile_columns = tile.columns,
                      .unroll = tile.unroll,
                      .activation = static_cast<int>(op.activation),
                      .has_residual = op.residual ? 1 : 0},
-                    {.columns = layer.out, .first_column = panel * kPanel},
+                    {.row_quads = layer.out / 4, .first_quad = panel * kPanel / 4},
                     {static_cast<std::uint32_t>(panels * kPanel / (plan.lanes() * tile.columns)),
                      static_cast<std::uint32_t>(rows.count / tile.rows)});
     }
