@@ -6,7 +6,8 @@
 //             bias      [N]                 f32, as RGBA texels
 //             residual  [rows, N]           f32, as RGBA texels; may be y
 //   out       y         [rows, N]           f32
-//   dispatch  (columns / (lanes * tile_columns), rows / tile_rows, 1), one subgroup a workgroup
+//   dispatch  (rows / tile_rows, columns / (lanes * tile_columns), 1), one subgroup a workgroup; rows
+//             first, so that a core goes through the weights once
 //   twin      engine/reference/linear.cpp; agrees to 2e-5 * sqrt(K / 256) of the largest output
 //
 // A lane owns tile_columns columns of all tile_rows rows, in fours that lie `lanes` apart. The rows
@@ -43,9 +44,9 @@ const int row_texels = (tile_rows + lanes - 1) / lanes;  // a lane's share of a 
 
 void main() {
   int lane = int(gl_LocalInvocationID.x);
-  int first_row = int(gl_WorkGroupID.y) * tile_rows;
-  int texels_a_row = textureSize(x) / (int(gl_NumWorkGroups.y) * tile_rows);  // K / 4
-  int quad = int(gl_WorkGroupID.x) * lanes * quads + lane;  // within this dispatch
+  int first_row = int(gl_WorkGroupID.x) * tile_rows;
+  int texels_a_row = textureSize(x) / (int(gl_NumWorkGroups.x) * tile_rows);  // K / 4
+  int quad = int(gl_WorkGroupID.y) * lanes * quads + lane;  // within this dispatch
   int out_quad = push.first_quad + quad;
 
   float sum[tile_rows * tile_columns];

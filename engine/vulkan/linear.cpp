@@ -51,8 +51,8 @@ void record_linear(Plan& plan, const ops::Linear& op, const DenseLayer& layer) {
                      .activation = static_cast<int>(op.activation),
                      .has_residual = op.residual ? 1 : 0},
                     {.row_quads = layer.out / 4, .first_quad = panel * kPanel / 4},
-                    {static_cast<std::uint32_t>(panels * kPanel / (plan.lanes() * tile.columns)),
-                     static_cast<std::uint32_t>(rows.count / tile.rows)});
+                    {static_cast<std::uint32_t>(rows.count / tile.rows),
+                     static_cast<std::uint32_t>(panels * kPanel / (plan.lanes() * tile.columns))});
     }
   }
 }
