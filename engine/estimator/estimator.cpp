@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <exception>
+#include <future>
 #include <vector>
 
 #include "estimator/conditions.hpp"
@@ -106,11 +107,13 @@ Result<std::unique_ptr<Estimator::Impl>> Estimator::Impl::create(const Config& c
   auto file = config.weights.empty() ? estimator::default_weights()
                                      : Result<std::filesystem::path>(config.weights);
   if (!file) return file.error();
+  // Opening a driver takes as long as reading the weights: side by side, where a thread is to be
+  // had.
+  auto choice = std::async([&] { return estimator::choose_back_end(config); });
   auto loaded = weights::load(*file);
+  auto back_end = choice.get();
   if (!loaded) return loaded.error();
   const auto weights = std::make_shared<const weights::Weights>(*std::move(loaded));
-
-  auto back_end = estimator::choose_back_end(config);
   if (!back_end) return back_end.error();
   auto sampler = flow::Sampler::create(weights, back_end->make_program, sampler_config(config));
   if (!sampler) return sampler.error();

@@ -6,10 +6,10 @@
 namespace flowdlo::vulkan {
 
 ops::Tensor Plan::tensor(Home home, std::string_view name, int rows, int columns,
-                         std::span<const float> content) {
+                         std::vector<float> content) {
   const VkDeviceSize bytes =
       VkDeviceSize{4} * static_cast<VkDeviceSize>(rows) * static_cast<VkDeviceSize>(columns);
-  return {resources_.add(home, bytes, name, {content.begin(), content.end()}), rows, columns};
+  return {resources_.add(home, bytes, name, std::move(content)), rows, columns};
 }
 
 Range Plan::rows(const ops::Tensor& tensor, Window window) const {

@@ -57,7 +57,7 @@ class Plan {
   explicit Plan(const Device& device) : device_(&device) {}
 
   [[nodiscard]] ops::Tensor tensor(Home home, std::string_view name, int rows, int columns,
-                                   std::span<const float> content = {});
+                                   std::vector<float> content = {});
   [[nodiscard]] Range whole(const ops::Tensor& tensor) const { return resources_.whole(tensor.id); }
   [[nodiscard]] Range rows(const ops::Tensor& tensor, Window window) const;
 

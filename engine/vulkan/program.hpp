@@ -36,7 +36,7 @@ class Program final : public ops::Program {
   }
   ops::Tensor constant(std::string_view name, int rows, int columns,
                        std::span<const float> values) override {
-    return work_->plan.tensor(Home::kDevice, name, rows, columns, values);
+    return work_->plan.tensor(Home::kDevice, name, rows, columns, {values.begin(), values.end()});
   }
   ops::LinearLayer layer(std::string_view name, int out, int in, std::span<const float> weight,
                          std::span<const float> bias) override;
