@@ -13,6 +13,11 @@ struct GemmPush {
   int first_quad;  // of this dispatch; a multiple of 64
 };
 
+struct TileGemmPush {  // also of matrix_gemm
+  int rows;       // of x and y in this dispatch
+  int row_quads;  // columns of y and residual, in fours
+};
+
 struct NarrowPush {
   int first_row;     // of x in this dispatch
   int first_period;  // Addend::period; Addend::offset less the first bound row of the table

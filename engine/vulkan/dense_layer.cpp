@@ -3,7 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cassert>
+#include <cstring>
+
+#include "weights/half.hpp"
 
 namespace flowdlo::vulkan {
 namespace {
@@ -11,11 +15,13 @@ namespace {
 constexpr int kNarrowInputs = 8;
 constexpr int kHeadOutputs = 4;
 
-Packing packing_of(int out, int in) {
+Packing packing_of(GemmFamily family, int out, int in, std::span<const float> weight) {
   if (out == ops::kWidth && in >= 1 && in <= kNarrowInputs) return Packing::kNarrow;
   if (in == ops::kWidth && out >= 3 && out <= kHeadOutputs) return Packing::kHead;
-  if (out % kPanel == 0 && in % 16 == 0 && in > 0) return Packing::kGemm;
-  return Packing::kNone;
+  const int depth = family == GemmFamily::kSimd ? 16 : 64;
+  if (out % kPanel != 0 || in % depth != 0 || in <= 0) return Packing::kNone;
+  if (family == GemmFamily::kSimd) return Packing::kPanels;
+  return family == GemmFamily::kMatrix || are_halves(weight) ? Packing::kHalves : Packing::kRows;
 }
 
 /// [rows, columns] in the corner of [padded_rows, padded_columns].
@@ -49,17 +55,45 @@ std::vector<float> pack_panels(std::span<const float> weight, int out, int in) {
   return packed;
 }
 
+std::vector<float> pack_halves(std::span<const float> weight) {
+  std::vector<float> packed(weight.size() / 2);
+  for (std::size_t i = 0; i < packed.size(); ++i) {
+    const std::array<std::uint16_t, 2> pair{weights::float_to_half(weight[2 * i]),
+                                            weights::float_to_half(weight[2 * i + 1])};
+    std::memcpy(&packed[i], pair.data(), sizeof(float));
+  }
+  return packed;
+}
+
+bool are_halves(std::span<const float> weight) {
+  return std::all_of(weight.begin(), weight.end(), [](float value) {
+    return weights::half_to_float(weights::float_to_half(value)) == value;
+  });
+}
+
 DenseLayer keep_layer(Plan& plan, std::string_view name, int out, int in,
                       std::span<const float> weight, std::span<const float> bias) {
   assert(weight.size() == static_cast<std::size_t>(out) * in);
   assert(bias.size() == static_cast<std::size_t>(out));
-  DenseLayer layer{.packing = packing_of(out, in), .in = in, .out = out, .weight = {}, .bias = {}};
+  DenseLayer layer{.packing = packing_of(plan.gemm().family, out, in, weight),
+                   .in = in,
+                   .out = out,
+                   .weight = {},
+                   .bias = {}};
   const auto keep = [&](int rows, int columns, std::vector<float> content) {
     return plan.tensor(Home::kDevice, name, rows, columns, std::move(content));
   };
   switch (layer.packing) {
-    case Packing::kGemm:
+    case Packing::kPanels:
       layer.weight = keep(out, in, pack_panels(weight, out, in));
+      layer.bias = keep(1, out, {bias.begin(), bias.end()});
+      break;
+    case Packing::kRows:
+      layer.weight = keep(out, in, {weight.begin(), weight.end()});
+      layer.bias = keep(1, out, {bias.begin(), bias.end()});
+      break;
+    case Packing::kHalves:
+      layer.weight = keep(out, in / 2, pack_halves(weight));
       layer.bias = keep(1, out, {bias.begin(), bias.end()});
       break;
     case Packing::kNarrow:
@@ -72,7 +106,7 @@ DenseLayer keep_layer(Plan& plan, std::string_view name, int out, int in,
       break;
     case Packing::kNone:
       plan.fault(
-          fmt::format("layer \"{}\": expected [256, 1..8], [3..4, 256] or [256 n, 16 m], "
+          fmt::format("layer \"{}\": expected [256, 1..8], [3..4, 256] or [256 n, 64 m], "
                       "got [{}, {}]",
                       name, out, in));
       break;

@@ -21,12 +21,58 @@ struct GemmCall {
     int has_residual;
   };
   using Push = GemmPush;
+  static constexpr bool kUsesSubgroups = true;
   static ShaderCode shader() { return shaders::gemm(); }
 
   Texels x;
   Texels weight;
   Texels bias;
   Texels residual;
+  Writes y;
+  [[nodiscard]] std::array<Binding, 5> bindings() const { return {x, weight, bias, residual, y}; }
+};
+
+struct TileGemmCall {
+  struct Constants {
+    int threads;
+    int tile_rows;
+    int tile_columns;
+    int slab;
+    int depth;
+    int half_weights;
+    int activation;
+    int has_residual;
+  };
+  using Push = TileGemmPush;
+  static constexpr bool kUsesSubgroups = false;
+  static ShaderCode shader() { return shaders::tile_gemm(); }
+
+  Reads x;
+  Reads weight;
+  Reads bias;
+  Reads residual;
+  Writes y;
+  [[nodiscard]] std::array<Binding, 5> bindings() const { return {x, weight, bias, residual, y}; }
+};
+
+struct MatrixGemmCall {
+  struct Constants {
+    int threads;
+    int tile_rows;
+    int tile_columns;
+    int slab;
+    int depth;
+    int activation;
+    int has_residual;
+  };
+  using Push = TileGemmPush;
+  static constexpr bool kUsesSubgroups = true;
+  static ShaderCode shader() { return shaders::matrix_gemm(); }
+
+  Reads x;
+  Reads weight;
+  Reads bias;
+  Reads residual;
   Writes y;
   [[nodiscard]] std::array<Binding, 5> bindings() const { return {x, weight, bias, residual, y}; }
 };
@@ -40,6 +86,7 @@ struct NarrowCall {
     int addends;
   };
   using Push = NarrowPush;
+  static constexpr bool kUsesSubgroups = true;
   static ShaderCode shader() { return shaders::narrow(); }
 
   Texels x;
@@ -58,6 +105,7 @@ struct LayerNormCall {
     int lanes;
   };
   using Push = NoPush;
+  static constexpr bool kUsesSubgroups = true;
   static ShaderCode shader() { return shaders::layer_norm(); }
 
   Texels x;
@@ -77,6 +125,7 @@ struct AttentionCall {
     int has_valid;
   };
   using Push = AttentionPush;
+  static constexpr bool kUsesSubgroups = true;
   static ShaderCode shader() { return shaders::attention(); }
 
   Texels query;
@@ -94,6 +143,7 @@ struct FarthestSetupCall {
     int share;
   };
   using Push = FarthestPush;
+  static constexpr bool kUsesSubgroups = true;
   static ShaderCode shader() { return shaders::farthest_setup(); }
 
   Reads cloud;
@@ -111,6 +161,7 @@ struct FarthestPointsCall {
     int cloud_is_texels;
   };
   using Push = FarthestPush;
+  static constexpr bool kUsesSubgroups = true;
   static ShaderCode shader() { return shaders::farthest_points(); }
 
   Texels cloud_texels;
@@ -131,6 +182,7 @@ struct FrameNormalizationCall {
     int lanes;
   };
   using Push = NoPush;
+  static constexpr bool kUsesSubgroups = true;
   static ShaderCode shader() { return shaders::frame_normalization(); }
 
   Texels points;
@@ -144,6 +196,7 @@ struct NormalizeCall {
     int inverse_form;
   };
   using Push = NoPush;
+  static constexpr bool kUsesSubgroups = true;
   static ShaderCode shader() { return shaders::normalize(); }
 
   Texels points;
@@ -160,6 +213,7 @@ struct MaskFeaturesCall {
     int has_depth;
   };
   using Push = MaskFeaturesPush;
+  static constexpr bool kUsesSubgroups = true;
   static ShaderCode shader() { return shaders::mask_features(); }
 
   Texels state;
@@ -182,6 +236,7 @@ struct FlowStepCall {
     int channels;
   };
   using Push = FlowStepPush;
+  static constexpr bool kUsesSubgroups = true;
   static ShaderCode shader() { return shaders::flow_step(); }
 
   Texels hidden;
