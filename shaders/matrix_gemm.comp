@@ -1,5 +1,5 @@
 // matrix_gemm: y[r, c] = act(sum_k x[r, k] W[c, k] + bias[c]) + residual[r, c] by cooperative
-// matrices of 16 x 16 x 16: f16 in, f32 sums
+// matrices: f16 in, f32 sums
 //
 //   thesis    Sec. 3.4, every dense layer of the cross-attention and the encoder
 //   in        x         [rows, K]  f32, rounded to f16 on the way
@@ -7,8 +7,8 @@
 //             bias      [N]        f32
 //             residual  [rows, N]  f32; may be y
 //   out       y         [rows, N]  f32
-//   dispatch  (rows / tile_rows rounded up, N / tile_columns, 1), one subgroup for each 16 rows x 32
-//             columns of the tile
+//   dispatch  (rows / tile_rows rounded up, N / tile_columns, 1), one subgroup for each `edge` rows
+//             x 2 `edge` columns of the tile
 //   twin      engine/reference/linear.cpp; agrees to 2e-3 of the largest output: x has 11 bits
 //
 // A slab of x goes through shared memory as halves; W is read where it lies. The sums return through
@@ -26,10 +26,11 @@
 layout(constant_id = 0) const int threads = 64;
 layout(constant_id = 1) const int tile_rows = 32;
 layout(constant_id = 2) const int tile_columns = 32;
-layout(constant_id = 3) const int slab = 64;        // k in shared memory; a multiple of 16
-layout(constant_id = 4) const int depth = 256;      // K, a multiple of slab
-layout(constant_id = 5) const int activation = 0;   // ops::Activation
-layout(constant_id = 6) const int has_residual = 0;
+layout(constant_id = 3) const int slab = 64;       // k in shared memory; a multiple of edge
+layout(constant_id = 4) const int depth = 256;     // K, a multiple of slab
+layout(constant_id = 5) const int edge = 16;       // of a matrix: 16 or 8, whatever the device has
+layout(constant_id = 6) const int activation = 0;  // ops::Activation
+layout(constant_id = 7) const int has_residual = 0;
 layout(local_size_x_id = 0) in;
 
 layout(push_constant) uniform Push { TileGemmPush push; };
@@ -39,7 +40,6 @@ layout(binding = 2, std430) readonly buffer Bias { vec4 bias[]; };
 layout(binding = 3, std430) readonly buffer Residual { vec4 residual[]; };
 layout(binding = 4, std430) writeonly buffer Y { vec4 y[]; };
 
-const int kEdge = 16;    // of a matrix
 const int kMatrices = 2;  // a subgroup's, side by side
 const int x_stride = slab / 8 + 1;           // uvec4 of 8 halves; one more: other banks
 const int sum_stride = tile_columns / 4 + 1;  // vec4
@@ -54,12 +54,12 @@ void main() {
   int first_row = int(gl_WorkGroupID.x) * tile_rows;
   int first_column = int(gl_WorkGroupID.y) * tile_columns;
   int part = int(gl_SubgroupID);
-  int part_row = part / (tile_columns / (kEdge * kMatrices)) * kEdge;
-  int part_column = part % (tile_columns / (kEdge * kMatrices)) * (kEdge * kMatrices);
+  int part_row = part / (tile_columns / (edge * kMatrices)) * edge;
+  int part_column = part % (tile_columns / (edge * kMatrices)) * (edge * kMatrices);
 
-  coopmat<float, gl_ScopeSubgroup, kEdge, kEdge, gl_MatrixUseAccumulator> sum[kMatrices];
+  coopmat<float, gl_ScopeSubgroup, edge, edge, gl_MatrixUseAccumulator> sum[kMatrices];
   [[unroll]] for (int j = 0; j < kMatrices; ++j) {
-    sum[j] = coopmat<float, gl_ScopeSubgroup, kEdge, kEdge, gl_MatrixUseAccumulator>(0.0);
+    sum[j] = coopmat<float, gl_ScopeSubgroup, edge, edge, gl_MatrixUseAccumulator>(0.0);
   }
   for (int k = 0; k < depth; k += slab) {
     barrier();
@@ -73,13 +73,13 @@ void main() {
                 packHalf2x16(high.zw));
     }
     barrier();
-    [[unroll]] for (int kk = 0; kk < slab; kk += kEdge) {
-      coopmat<float16_t, gl_ScopeSubgroup, kEdge, kEdge, gl_MatrixUseA> of_x;
+    [[unroll]] for (int kk = 0; kk < slab; kk += edge) {
+      coopmat<float16_t, gl_ScopeSubgroup, edge, edge, gl_MatrixUseA> of_x;
       coopMatLoad(of_x, x_tile, part_row * x_stride + kk / 8, x_stride,
                   gl_CooperativeMatrixLayoutRowMajor);
       [[unroll]] for (int j = 0; j < kMatrices; ++j) {
-        coopmat<float16_t, gl_ScopeSubgroup, kEdge, kEdge, gl_MatrixUseB> of_w;
-        int column = first_column + part_column + j * kEdge;
+        coopmat<float16_t, gl_ScopeSubgroup, edge, edge, gl_MatrixUseB> of_w;
+        int column = first_column + part_column + j * edge;
         coopMatLoad(of_w, weight, column * (depth / 8) + (k + kk) / 8, depth / 8,
                     gl_CooperativeMatrixLayoutColumnMajor);
         sum[j] = coopMatMulAdd(of_x, of_w, sum[j]);
@@ -88,7 +88,7 @@ void main() {
   }
 
   [[unroll]] for (int j = 0; j < kMatrices; ++j) {
-    coopMatStore(sum[j], sums, part_row * sum_stride + (part_column + j * kEdge) / 4, sum_stride,
+    coopMatStore(sum[j], sums, part_row * sum_stride + (part_column + j * edge) / 4, sum_stride,
                  gl_CooperativeMatrixLayoutRowMajor);
   }
   barrier();

@@ -109,7 +109,7 @@ Result<void> Device::create_device() {
   matrices.matrix.cooperativeMatrix = VK_TRUE;
   matrices.arithmetic.shaderFloat16 = VK_TRUE;
   matrices.memory.vulkanMemoryModel = VK_TRUE;
-  if (facts_.cooperative_matrices) {
+  if (facts_.matrix_edge > 0) {
     chain = matrices.chain(chain);
     extensions.insert(extensions.end(), kMatrixExtensions.begin(), kMatrixExtensions.end());
   }

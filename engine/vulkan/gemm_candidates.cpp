@@ -29,7 +29,7 @@ std::uint32_t shared_bytes(const GemmChoice& choice) {
 }
 
 bool fits(const PhysicalDevice& device, const GemmChoice& choice) {
-  const auto threads = static_cast<std::uint32_t>(threads_of(choice, device.lanes));
+  const auto threads = static_cast<std::uint32_t>(threads_of(choice, device));
   return threads <= device.limits.maxComputeWorkGroupInvocations &&
          threads <= device.limits.maxComputeWorkGroupSize[0] &&
          shared_bytes(choice) <= device.limits.maxComputeSharedMemorySize;
@@ -42,19 +42,18 @@ void add_simd(const PhysicalDevice& device, GemmChoice choice, std::vector<GemmC
 
 }  // namespace
 
-int threads_of(const GemmChoice& choice, int lanes) {
-  constexpr int kTileOfThread = 4 * 4;
-  constexpr int kTileOfSubgroup = 16 * 32;
+int threads_of(const GemmChoice& choice, const PhysicalDevice& device) {
+  constexpr int kEntriesOfThread = 4 * 4;
   const int entries = choice.rows * choice.columns;
-  return choice.family == GemmFamily::kTile ? entries / kTileOfThread
-                                            : entries / kTileOfSubgroup * lanes;
+  if (choice.family == GemmFamily::kTile) return entries / kEntriesOfThread;
+  return entries / (2 * device.matrix_edge * device.matrix_edge) * device.lanes;
 }
 
 std::vector<GemmChoice> gemm_candidates(const PhysicalDevice& device) {
   std::vector<GemmChoice> candidates;
   const bool is_cpu = device.report.kind == DeviceKind::kCpu;
   if (is_cpu) add_simd(device, kCpuSimd, candidates);
-  const bool has_matrices = device.cooperative_matrices && !shaders::matrix_gemm().words.empty();
+  const bool has_matrices = device.matrix_edge > 0 && !shaders::matrix_gemm().words.empty();
   if (has_matrices && !is_cpu) {
     for (const GemmChoice& choice : kMatrices) {
       if (fits(device, choice)) candidates.push_back(choice);

@@ -13,6 +13,6 @@ namespace flowdlo::vulkan {
 [[nodiscard]] std::vector<GemmChoice> gemm_candidates(const PhysicalDevice& device);
 
 /// Threads of a workgroup in kTile or kMatrix.
-[[nodiscard]] int threads_of(const GemmChoice& choice, int lanes);
+[[nodiscard]] int threads_of(const GemmChoice& choice, const PhysicalDevice& device);
 
 }  // namespace flowdlo::vulkan

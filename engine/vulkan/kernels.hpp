@@ -62,6 +62,7 @@ struct MatrixGemmCall {
     int tile_columns;
     int slab;
     int depth;
+    int edge;
     int activation;
     int has_residual;
   };

@@ -114,9 +114,8 @@ void look_for_texel_buffers(const InstanceTable& api, PhysicalDevice& device) {
   }
 }
 
-bool multiplies_halves(const CooperativeMatrixProperties& matrix) {
-  constexpr std::uint32_t kEdge = 16;
-  return matrix.MSize == kEdge && matrix.NSize == kEdge && matrix.KSize == kEdge &&
+bool multiplies_halves(const CooperativeMatrixProperties& matrix, std::uint32_t edge) {
+  return matrix.MSize == edge && matrix.NSize == edge && matrix.KSize == edge &&
          matrix.AType == MatrixComponent::kFloat16 && matrix.BType == MatrixComponent::kFloat16 &&
          matrix.CType == MatrixComponent::kFloat32 &&
          matrix.ResultType == MatrixComponent::kFloat32 &&
@@ -141,7 +140,12 @@ void look_for_matrices(const Instance& instance, PhysicalDevice& device) {
   if (list(device.handle, &count, nullptr) != VK_SUCCESS) return;
   std::vector<CooperativeMatrixProperties> matrices(count);
   if (list(device.handle, &count, matrices.data()) < VK_SUCCESS) return;
-  device.cooperative_matrices = std::any_of(matrices.begin(), matrices.end(), multiplies_halves);
+  for (const int edge : {8, 16}) {
+    const auto has = [&](const auto& matrix) {
+      return multiplies_halves(matrix, static_cast<std::uint32_t>(edge));
+    };
+    if (std::any_of(matrices.begin(), matrices.end(), has)) device.matrix_edge = edge;
+  }
 }
 
 std::string hexadecimal(const std::uint8_t (&bytes)[VK_UUID_SIZE]) {

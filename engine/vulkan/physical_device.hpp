@@ -17,13 +17,14 @@ struct PhysicalDevice {
   VkPhysicalDeviceLimits limits{};
   VkPhysicalDeviceMemoryProperties memory{};
   std::uint32_t driver_version = 0;
-  std::uint32_t queue_family = 0;     ///< has compute
-  std::uint32_t timestamp_bits = 0;   ///< 0: no timestamps
-  int lanes = 0;                      ///< subgroup size in use, 4 to 128
-  bool fixes_lanes = false;           ///< by VK_EXT_subgroup_size_control
-  bool full_subgroups = false;        ///< ditto
-  bool cooperative_matrices = false;  ///< of 16 x 16 x 16, f16 in and f32 out, by a subgroup
-  std::string driver_uuid;            ///< 32 hexadecimal digits
+  std::uint32_t queue_family = 0;    ///< has compute
+  std::uint32_t timestamp_bits = 0;  ///< 0: no timestamps
+  int lanes = 0;                     ///< subgroup size in use, 4 to 128
+  bool fixes_lanes = false;          ///< by VK_EXT_subgroup_size_control
+  bool full_subgroups = false;       ///< ditto
+  /// Of cooperative matrices, f16 in and f32 out, by a subgroup: 16, 8, or 0 where there are none.
+  int matrix_edge = 0;
+  std::string driver_uuid;  ///< 32 hexadecimal digits
 };
 
 /// In the loader's order.

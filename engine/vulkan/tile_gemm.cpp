@@ -30,7 +30,7 @@ void record_tile_gemm(Plan& plan, const ops::Linear& op, const DenseLayer& layer
   const Reads bias{plan.whole(layer.bias)};
   const Reads residual{op.residual ? plan.whole(*op.residual) : plan.whole(layer.bias)};
   const Writes y{plan.whole(op.y)};
-  const int threads = threads_of(tile, plan.lanes());
+  const int threads = threads_of(tile, plan.device().facts());
   const int activation = static_cast<int>(op.activation);
   const int has_residual = op.residual ? 1 : 0;
   const TileGemmPush push{.rows = op.x.rows, .row_quads = layer.out / 4};
@@ -44,6 +44,7 @@ void record_tile_gemm(Plan& plan, const ops::Linear& op, const DenseLayer& layer
                    .tile_columns = tile.columns,
                    .slab = tile.depth,
                    .depth = layer.in,
+                   .edge = plan.device().facts().matrix_edge,
                    .activation = activation,
                    .has_residual = has_residual},
                   push, groups);

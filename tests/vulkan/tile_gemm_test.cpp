@@ -94,7 +94,7 @@ TEST(GemmCandidates, FitTheLimitsOfASmallDevice) {
   device.limits.maxComputeSharedMemorySize = 16384;
   for (const GemmChoice& choice : gemm_candidates(device)) {
     EXPECT_EQ(choice.family, GemmFamily::kTile) << "shuffles of 128 lanes do not fit a panel";
-    EXPECT_LE(threads_of(choice, device.lanes), 128);
+    EXPECT_LE(threads_of(choice, device), 128);
   }
   EXPECT_FALSE(gemm_candidates(device).empty());
 }
