@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <exception>
+#include <future>
 #include <vector>
 
 #include "estimator/candidates.hpp"
@@ -173,12 +174,14 @@ Result<std::unique_ptr<Estimator::Impl>> Estimator::Impl::create(const Config& w
   auto file = wanted.weights.empty() ? estimator::default_weights()
                                      : Result<std::filesystem::path>(wanted.weights);
   if (!file) return file.error();
+  // Opening a driver takes as long as reading the weights: side by side, where a thread is to be
+  // had.
+  auto choice = std::async([&] { return estimator::choose_back_end(wanted); });
   auto loaded = weights::load(*file);
+  auto back_end = choice.get();
   if (!loaded) return loaded.error();
   const auto weights = std::make_shared<const weights::Weights>(*std::move(loaded));
   const Config config = resolved(wanted, weights->metadata);
-
-  auto back_end = estimator::choose_back_end(config);
   if (!back_end) return back_end.error();
   auto sampler = flow::Sampler::create(weights, back_end->make_program, sampler_config(config));
   if (!sampler) return sampler.error();
