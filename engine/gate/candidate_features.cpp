@@ -75,6 +75,22 @@ const Candidate* draw_of(std::span<const Candidate> candidates, int hypothesis) 
   return nullptr;
 }
 
+/// The best prior of another hypothesis that runs elsewhere; null where there is none.
+const Candidate* rival_of(std::span<const Candidate> candidates, const Candidate& candidate) {
+  for (const Candidate& other : candidates) {
+    if (other.draw >= 0 || other.hypothesis == candidate.hypothesis) continue;
+    if (runs_elsewhere(candidate, other)) return &other;
+  }
+  return nullptr;
+}
+
+/// Between the nodes of that index, `b` turned the way that brings it nearer to `a` as a whole.
+double node_distance_m(const Centerline& a, const Centerline& b, std::size_t node) {
+  const double forward = distance_m(a.front(), b.front()) + distance_m(a.back(), b.back());
+  const double backward = distance_m(a.front(), b.back()) + distance_m(a.back(), b.front());
+  return distance_m(a[node], forward <= backward ? b[node] : b[kNodes - 1 - node]);
+}
+
 /// Half for every candidate of another hypothesis that ends up at the same place.
 double agreed(std::span<const Candidate> candidates, const Candidate& candidate) {
   double others = 0;
@@ -227,13 +243,21 @@ std::array<double, kSigmaFeatures> sigma_features(std::span<const Candidate> can
   const auto log_m = [](double value) { return std::log(std::max(1e-5, value) / 0.003); };
   const double own = log_m(static_cast<double>(prior.sigma_m[node]));
   const double middle = std::abs((static_cast<double>(node) + 0.5) / kNodes - 0.5);
+  const Candidate* const rival = rival_of(candidates, candidate);
+  const double apart =
+      rival != nullptr ? log_m(node_distance_m(candidate.nodes, rival->nodes, node) + 1e-3) : 0;
   Row<kSigmaFeatures> row;
   row.add(1);
   row.add(own);
   row.add(log_m(mean(prior.sigma_m)));
   row.add(log_m(largest(prior.sigma_m)));
-  row.add(log_m(static_cast<double>(model.sigma_m[node])));
-  row.add(log_m(mean(model.sigma_m)));
+  row.add(draw != nullptr ? 0 : 1);
+  row.add(log_m(static_cast<double>(model.sigma_m[node])) - own);
+  row.add(log_m(mean(model.sigma_m)) - log_m(mean(prior.sigma_m)));
+  row.add(draw != nullptr ? log_m(distance_m(prior.nodes[node], model.nodes[node]) + 1e-4) : 0);
+  row.add(rival != nullptr ? 0 : 1);
+  row.add(apart);
+  row.add(apart * doubt);
   row.add(logit);
   row.add(doubt);
   row.add(std::max(0.0, -logit));
@@ -243,7 +267,7 @@ std::array<double, kSigmaFeatures> sigma_features(std::span<const Candidate> can
   row.add(std::log(std::max(1e-3, length_m(candidate))));
   row.add(middle);
   row.add(middle * own);
-  row.add(log_m(distance_m(prior.nodes[node], model.nodes[node]) + 1e-4));
+  row.add(middle * doubt);
   row.add(missing(candidate.tube.depth_agreement, 0.5));
   row.add(missing(candidate.tube.mask_precision, 0.1));
   row.add(static_cast<double>(candidate.hidden_ends));

@@ -29,7 +29,7 @@ inline constexpr std::size_t kClosenessFeatures = 36;
 
 /// [kSigmaFeatures] the first is one: log metres by which a node of the chosen candidate is off,
 /// given the probability that the candidate is close.
-inline constexpr std::size_t kSigmaFeatures = 20;
+inline constexpr std::size_t kSigmaFeatures = 25;
 [[nodiscard]] std::array<double, kSigmaFeatures> sigma_features(
     std::span<const Candidate> candidates, std::size_t index, std::size_t node, double probability);
 

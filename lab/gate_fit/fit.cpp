@@ -138,15 +138,11 @@ std::array<double, gate::kClosenessFeatures> fit_closeness(const std::vector<Gat
       fit(choices, gate::kClosenessFeatures, kClosenessRidge));
 }
 
-bool asked_the_model(const GateSample& sample) { return sample.candidates.back().draw >= 0; }
-
 std::array<double, gate::kSigmaFeatures> fit_sigma(const std::vector<GateSample>& samples,
                                                    const std::vector<Outcome>& outcomes,
                                                    const std::vector<double>& probabilities) {
   std::vector<ScaleRow> rows;
-  const bool any = std::any_of(samples.begin(), samples.end(), asked_the_model);
   for (std::size_t s = 0; s < samples.size(); ++s) {
-    if (any && !asked_the_model(samples[s])) continue;
     const auto& candidates = samples[s].candidates;
     const auto off_m = node_errors_m(candidates[outcomes[s].chosen].nodes, samples[s].truth);
     for (std::size_t node = 0; node < kNodes; ++node) {
