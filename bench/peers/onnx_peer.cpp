@@ -64,7 +64,7 @@ class OnnxPeer final : public Peer {
         for (std::size_t axis = 0; axis < 3; ++axis) {
           float& x = state[row * 4 + axis];
           x += dt *
-               velocity(variant, t, output_[row * channels + axis], x, prior_rows_[row * 4 + axis]);
+               problem_.velocity(t, output_[row * channels + axis], x, prior_rows_[row * 4 + axis]);
         }
       }
     }
