@@ -1,7 +1,6 @@
 #include "peers/onnx_peer.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
 
 #include "flow/time_embedding.hpp"
@@ -25,22 +24,6 @@ std::vector<float> columns_of(const std::vector<float>& rows, std::size_t width,
   std::vector<float> out;
   columns_of(rows, width, first, count, out);
   return out;
-}
-
-/// dx/dt, Eq. (3.27), (3.29) and spec section 6.
-float velocity(const weights::Variant& variant, float t, float output, float x, float prior) {
-  switch (variant.parameterization) {
-    case ops::Parameterization::kVelocity:
-      return output;
-    case ops::Parameterization::kDirect:
-      return (output - x) / std::max(1.0F - t, 1e-6F);
-    case ops::Parameterization::kPreconditioned: {
-      const float s = variant.prior_sd;
-      const float den = t * t * s * s + (1 - t) * (1 - t);
-      return prior + (t * s * s - (1 - t)) / den * (x - t * prior) + s / std::sqrt(den) * output;
-    }
-  }
-  return output;
 }
 
 class OnnxPeer final : public Peer {
@@ -81,7 +64,7 @@ class OnnxPeer final : public Peer {
         for (std::size_t axis = 0; axis < 3; ++axis) {
           float& x = state[row * 4 + axis];
           x += dt *
-               velocity(variant, t, output_[row * channels + axis], x, prior_rows_[row * 4 + axis]);
+               problem_.velocity(t, output_[row * channels + axis], x, prior_rows_[row * 4 + axis]);
         }
       }
     }

@@ -26,7 +26,7 @@
 namespace flowdlo::peers {
 namespace {
 
-constexpr float kLargest = 1e-3F;  // difference to FlowDLO, normalised units
+constexpr float kLargest = 1e-3F;  // difference to FlowDLO, of what the network adds to the nodes
 // Between turns: idle threads of a BLAS or of ONNX Runtime spin before they sleep.
 constexpr std::chrono::milliseconds kPause{150};
 
@@ -83,13 +83,14 @@ std::vector<std::unique_ptr<Peer>> make_peers(const Options& options, const Prob
 bool agree(const std::vector<std::unique_ptr<Peer>>& peers, const Problem& problem) {
   std::vector<float> ours(problem.source.size());
   peers.front()->sample(ours);
-  bool fine = true;
+  const float share = difference(ours, problem.without_network());
+  bool fine = share > 0;
   for (std::size_t i = 1; i < peers.size(); ++i) {
     std::vector<float> theirs(problem.source.size());
     peers[i]->sample(theirs);
-    const float off = difference(ours, theirs);
-    fmt::print("{}: largest difference to FlowDLO {:.2g} (at most {:g})\n", peers[i]->name(), off,
-               kLargest);
+    const float off = difference(ours, theirs) / share;
+    fmt::print("{}: largest difference to FlowDLO {:.2g} of the network's share (at most {:g})\n",
+               peers[i]->name(), off, kLargest);
     fine = fine && off <= kLargest;
   }
   return fine;

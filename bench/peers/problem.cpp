@@ -1,6 +1,7 @@
 #include "peers/problem.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "estimator/conditions.hpp"
 #include "flow/gaussian_source.hpp"
@@ -50,6 +51,35 @@ std::vector<float> Problem::normalised(const std::vector<float>& rows) const {
   std::vector<float> out(rows.size());
   reference::normalize(rows, norm, out);
   return out;
+}
+
+float Problem::velocity(float t, float output, float x, float prior_x) const {
+  const auto& variant = weights.metadata.variant;
+  switch (variant.parameterization) {
+    case ops::Parameterization::kVelocity:
+      return output;
+    case ops::Parameterization::kDirect:
+      return (output - x) / std::max(1.0F - t, 1e-6F);
+    case ops::Parameterization::kPreconditioned: {
+      const float s = variant.prior_sd;
+      const float den = t * t * s * s + (1 - t) * (1 - t);
+      return prior_x + (t * s * s - (1 - t)) / den * (x - t * prior_x) +
+             s / std::sqrt(den) * output;
+    }
+  }
+  return output;
+}
+
+std::vector<float> Problem::without_network() const {
+  const auto prior_rows = normalised(prior);
+  std::vector<float> state = source;
+  for (int k = 0; k < steps; ++k) {
+    const float t = static_cast<float>(k) / static_cast<float>(steps);
+    for (std::size_t i = 0; i < state.size(); ++i) {
+      state[i] += velocity(t, 0, state[i], prior_rows[i]) / static_cast<float>(steps);
+    }
+  }
+  return state;
 }
 
 void Problem::features(const std::vector<float>& state, std::vector<float>& out) const {

@@ -30,6 +30,11 @@ struct Problem {
   [[nodiscard]] int rows() const { return draws * ops::kRowsPerDraw; }
   /// (x - mean) / scale, Eq. (3.10); column 3 is copied.
   [[nodiscard]] std::vector<float> normalised(const std::vector<float>& rows) const;
+  /// dx/dt of one coordinate, Eq. (3.27), (3.29) and spec section 6.
+  [[nodiscard]] float velocity(float t, float output, float x, float prior) const;
+  /// Nodes [rows, 4] after K steps of a network that always says 0: what is left to compare is the
+  /// network's own share.
+  [[nodiscard]] std::vector<float> without_network() const;
   /// phi_M of normalised states [rows, 4]: [rows, 8].
   void features(const std::vector<float>& state, std::vector<float>& out) const;
 };

@@ -27,7 +27,7 @@ template <int kRows>
 FLOWDLO_INLINE void accumulate(Tile<kRows>& tile, const float* x, std::ptrdiff_t row_step,
                                std::ptrdiff_t depth_step, const float* panel,
                                std::ptrdiff_t panel_step, int depth) {
-#pragma GCC unroll 2
+#pragma GCC unroll 2  // more spills the sums of AVX2
   for (int k = 0; k < depth; ++k) {
     Lanes columns[kTileLanes];
     for (int i = 0; i < kTileLanes; ++i) columns[i] = load(panel + k * panel_step + i * kLanes);
@@ -39,13 +39,13 @@ FLOWDLO_INLINE void accumulate(Tile<kRows>& tile, const float* x, std::ptrdiff_t
   }
 }
 
-/// work(first row, RowCount) for `rows` rows in tiles of kTileRows, the rest
-/// in smaller ones. `rows` is a multiple of 4.
 template <int kRows>
 struct RowCount {
   static constexpr int value = kRows;
 };
 
+/// work(first row, RowCount) for tiles of kTileRows, and for smaller ones at the end. `rows` is
+/// even.
 template <class Work>
 FLOWDLO_INLINE void for_tiles(int rows, const Work& work) {
   int row = 0;
