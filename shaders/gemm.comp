@@ -3,15 +3,17 @@
 //   thesis    Sec. 3.4, every dense layer of the cross-attention and the encoder
 //   in        x         [rows, K]           f32, as RGBA texels
 //             weight    [N/256][K/4][256]   RGBA texels: four consecutive k of one column
-//             bias      [N]                 f32, as R texels
-//             residual  [rows, N]           f32, as R texels; may be y
+//             bias      [N]                 f32, as RGBA texels
+//             residual  [rows, N]           f32, as RGBA texels; may be y
 //   out       y         [rows, N]           f32
-//   dispatch  (columns / (lanes * tile_columns), rows / tile_rows, 1), one subgroup a workgroup
+//   dispatch  (rows / tile_rows, columns / (lanes * tile_columns), 1), one subgroup a workgroup; rows
+//             first, so that a core goes through the weights once
 //   twin      engine/reference/linear.cpp; agrees to 2e-5 * sqrt(K / 256) of the largest output
 //
-// A lane owns tile_columns columns, `lanes` apart, of all tile_rows rows. The rows of x are spread
-// over the lanes and handed round by shuffles with a constant lane, so that the inner loop has no
-// lane-varying load but texel fetches. k runs in order: a result does not depend on the tile.
+// A lane owns tile_columns columns of all tile_rows rows, in fours that lie `lanes` apart. The rows
+// of x are spread over the lanes and handed round by shuffles with a constant lane, so that the inner
+// loop has no lane-varying load but texel fetches. k runs in order: a result does not depend on the
+// tile. K is read from x's size, so that one kernel serves every K: each costs CPU drivers 0.2 s.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_KHR_shader_subgroup_basic : require
@@ -21,12 +23,11 @@
 #include "push_constants.h"
 
 layout(constant_id = 0) const int lanes = 8;
-layout(constant_id = 1) const int depth = 256;      // K
-layout(constant_id = 2) const int tile_rows = 16;
-layout(constant_id = 3) const int tile_columns = 8;
-layout(constant_id = 4) const int unroll = 2;       // texels of four k in flight
-layout(constant_id = 5) const int activation = 0;   // ops::Activation
-layout(constant_id = 6) const int has_residual = 0;
+layout(constant_id = 1) const int tile_rows = 16;
+layout(constant_id = 2) const int tile_columns = 8;  // a multiple of four
+layout(constant_id = 3) const int unroll = 2;        // texels of four k in flight; divides K / 4
+layout(constant_id = 4) const int activation = 0;    // ops::Activation
+layout(constant_id = 5) const int has_residual = 0;
 layout(local_size_x_id = 0) in;
 
 layout(push_constant) uniform Push { GemmPush push; };
@@ -34,31 +35,33 @@ layout(binding = 0) uniform samplerBuffer x;
 layout(binding = 1) uniform samplerBuffer weight;
 layout(binding = 2) uniform samplerBuffer bias;
 layout(binding = 3) uniform samplerBuffer residual;
-layout(binding = 4, std430) writeonly buffer Y { float y[]; };
+layout(binding = 4, std430) writeonly buffer Y { vec4 y[]; };
 
 const int kPanel = 256;  // columns that lie side by side in `weight`
-const int texels_a_row = depth / 4;
+const int kPanelQuads = kPanel / 4;
+const int quads = tile_columns / 4;
 const int row_texels = (tile_rows + lanes - 1) / lanes;  // a lane's share of a column of x's tile
 
 void main() {
   int lane = int(gl_LocalInvocationID.x);
-  int first_row = int(gl_WorkGroupID.y) * tile_rows;
-  int column = int(gl_WorkGroupID.x) * lanes * tile_columns + lane;  // within this dispatch
-  int out_column = push.first_column + column;
+  int first_row = int(gl_WorkGroupID.x) * tile_rows;
+  int texels_a_row = textureSize(x) / (int(gl_NumWorkGroups.x) * tile_rows);  // K / 4
+  int quad = int(gl_WorkGroupID.y) * lanes * quads + lane;  // within this dispatch
+  int out_quad = push.first_quad + quad;
 
   float sum[tile_rows * tile_columns];
-  [[unroll]] for (int j = 0; j < tile_columns; ++j) {
-    float start = texelFetch(bias, out_column + j * lanes).x;
+  [[unroll]] for (int q = 0; q < quads; ++q) {
+    vec4 start = texelFetch(bias, out_quad + q * lanes);
     [[unroll]] for (int i = 0; i < tile_rows; ++i) {
-      sum[i * tile_columns + j] = start;
+      vec4 value = start;
       if (has_residual != 0 && activation == 0) {
-        sum[i * tile_columns + j] +=
-            texelFetch(residual, (first_row + i) * push.columns + out_column + j * lanes).x;
+        value += texelFetch(residual, (first_row + i) * push.row_quads + out_quad + q * lanes);
       }
+      [[unroll]] for (int c = 0; c < 4; ++c) sum[i * tile_columns + q * 4 + c] = value[c];
     }
   }
 
-  int weight_base = column / kPanel * (texels_a_row * kPanel) + column % kPanel;
+  int weight_base = quad / kPanelQuads * (texels_a_row * kPanel) + quad % kPanelQuads * 4;
   int x_base[row_texels];
   [[unroll]] for (int f = 0; f < row_texels; ++f) {
     x_base[f] = (first_row + (f * lanes + lane) % tile_rows) * texels_a_row;
@@ -72,7 +75,8 @@ void main() {
         a[u * row_texels + f] = texelFetch(x, x_base[f] + k + u);
       }
       [[unroll]] for (int j = 0; j < tile_columns; ++j) {
-        b[u * tile_columns + j] = texelFetch(weight, weight_base + (k + u) * kPanel + j * lanes);
+        int column = j / 4 * lanes * 4 + j % 4;
+        b[u * tile_columns + j] = texelFetch(weight, weight_base + (k + u) * kPanel + column);
       }
     }
     [[unroll]] for (int i = 0; i < tile_rows; ++i) {
@@ -98,14 +102,15 @@ void main() {
   }
 
   [[unroll]] for (int i = 0; i < tile_rows; ++i) {
-    [[unroll]] for (int j = 0; j < tile_columns; ++j) {
-      int index = (first_row + i) * push.columns + out_column + j * lanes;
-      float value = sum[i * tile_columns + j];
-      if (activation == 1) {
-        value = gelu(value);
-        if (has_residual != 0) value += texelFetch(residual, index).x;
+    [[unroll]] for (int q = 0; q < quads; ++q) {
+      int texel = (first_row + i) * push.row_quads + out_quad + q * lanes;
+      vec4 value;
+      [[unroll]] for (int c = 0; c < 4; ++c) {
+        value[c] = sum[i * tile_columns + q * 4 + c];
+        if (activation == 1) value[c] = gelu(value[c]);
       }
-      y[index] = value;
+      if (has_residual != 0 && activation == 1) value += texelFetch(residual, texel);
+      y[texel] = value;
     }
   }
 }

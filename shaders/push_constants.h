@@ -9,8 +9,13 @@ namespace flowdlo::vulkan {
 #endif
 
 struct GemmPush {
-  int columns;       // of y and residual
-  int first_column;  // of this dispatch; a multiple of 256
+  int row_quads;   // columns of y and residual, in fours
+  int first_quad;  // of this dispatch; a multiple of 64
+};
+
+struct TileGemmPush {  // also of matrix_gemm
+  int rows;       // of x and y in this dispatch
+  int row_quads;  // columns of y and residual, in fours
 };
 
 struct NarrowPush {

@@ -16,6 +16,7 @@
 #include "frame_output.hpp"
 #include "model_options.hpp"
 #include "progress_bar.hpp"
+#include "recording_arguments.hpp"
 
 namespace flowdlo::tools {
 namespace {
@@ -26,6 +27,7 @@ struct EstimateOptions {
   std::vector<fs::path> frames;
   fs::path out;
   Config config;
+  RecordingArguments recordings;
   bool tensors = false;
   bool quiet = false;
 };
@@ -68,7 +70,7 @@ Result<std::string> run_frame(const EstimateOptions& options, const FrameEntry& 
     if (written) return error;
     return {error.code, error.message + "\n" + written.error().message};
   };
-  const auto loaded = load_frame_folder(entry.folder);
+  const auto loaded = load_frame(entry);
   if (!loaded) return fail(loaded.error());
   Tensors tensors;
   const auto estimate = options.tensors ? estimator.estimate(loaded->frame(), tensors)
@@ -101,7 +103,8 @@ ExitCode run_frames(const EstimateOptions& options, const std::vector<FrameEntry
 }
 
 ExitCode run(const EstimateOptions& options) {
-  const auto frames = list_frames(options.frames);
+  const auto frames =
+      list_frames(options.frames, recording_opener(options.recordings, options.quiet));
   if (!frames) {
     complain(frames.error());
     return ExitCode::kUsage;
@@ -123,7 +126,9 @@ ExitCode run(const EstimateOptions& options) {
 void add_estimate_command(CLI::App& app, ExitCode& exit_code) {
   auto options = std::make_shared<EstimateOptions>();
   auto* command = app.add_subcommand("estimate", "Frames in, centerlines out");
-  command->add_option("FRAME", options->frames, "Frame folders, or folders of frame folders")
+  command
+      ->add_option("FRAME", options->frames,
+                   "Frame folders, folders of frame folders, or ROS 1 bags")
       ->required();
   command->add_option("--out", options->out, "Results go to DIR/<frame name>/")
       ->required()
@@ -131,6 +136,7 @@ void add_estimate_command(CLI::App& app, ExitCode& exit_code) {
   add_model_options(*command, options->config);
   command->add_flag("--tensors", options->tensors, "Write the model's tensors as .npy as well");
   command->add_flag("--quiet", options->quiet, "Print errors only");
+  add_recording_options(*command, options->recordings);
   command->callback([options, &exit_code] { exit_code = run(*options); });
 }
 

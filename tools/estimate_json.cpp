@@ -37,10 +37,12 @@ Json header(const char* status, const std::string& message, const Provenance& pr
 
 std::string sentence(const Estimate& estimate) {
   const auto supported = std::count(estimate.support.begin(), estimate.support.end(), 1);
-  const std::string origin =
-      estimate.source == Source::kPrediction
-          ? fmt::format("draw {} of the model passed the gate", estimate.draw)
-          : std::string("no draw of the model passed the gate, so this is the prior");
+  std::string origin = "no draw of the model passed the gate, so this is the prior";
+  if (estimate.source == Source::kPrediction) {
+    origin = fmt::format("draw {} of the model passed the gate", estimate.draw);
+  } else if (estimate.calibrated) {
+    origin = "the gate preferred this prior to every draw of the model";
+  }
   return fmt::format(
       "{}; {:.0f} % of the curve lies on the mask and {} of {} nodes are backed by "
       "visible points",
@@ -99,6 +101,7 @@ std::string estimate_json(const Estimate& estimate, const Provenance& provenance
   Json json = header("ok", sentence(estimate), provenance);
   json["source"] = name_of(estimate.source);
   json["draw"] = estimate.draw < 0 ? Json(nullptr) : Json(estimate.draw);
+  json["gate"] = estimate.calibrated ? "calibrated" : "thesis";
   json["confidence"] = number(estimate.confidence);
   json["mask_agreement"] = number(estimate.mask_agreement);
   json["prior_mask_agreement"] = number(estimate.prior_mask_agreement);

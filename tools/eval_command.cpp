@@ -9,19 +9,30 @@
 #include <memory>
 #include <string>
 #include <system_error>
+#include <thread>
 #include <utility>
 #include <vector>
 
+#include "build_sum.hpp"
+#include "estimator/weights_location.hpp"
+#include "eval/contenders.hpp"
 #include "eval/error_overlay.hpp"
 #include "eval/evaluator.hpp"
+#include "eval/job_loop.hpp"
+#include "eval/merged_rows.hpp"
 #include "eval/plots.hpp"
+#include "eval/row_file.hpp"
 #include "eval/sweep.hpp"
 #include "eval/tables.hpp"
+#include "eval_outputs.hpp"
 #include "flowdlo/frame_folder.hpp"
+#include "flowdlo/weights.hpp"
 #include "frame/staged_files.hpp"
 #include "frame_list.hpp"
 #include "model_options.hpp"
 #include "progress_bar.hpp"
+#include "recorded_frame.hpp"
+#include "recording_arguments.hpp"
 
 namespace flowdlo::tools {
 namespace {
@@ -31,10 +42,22 @@ namespace fs = std::filesystem;
 struct EvalOptions {
   std::vector<fs::path> frames;
   fs::path out;
+  fs::path results;
   Config config;
+  RecordingArguments recordings;
+  eval::ContenderConfig contenders;
+  int jobs = 1;
+  std::string shard = "1/1";
   int worst = 0;
   std::vector<int> sweep_steps;
   std::vector<int> sweep_draws;
+  bool quiet = false;
+};
+
+struct MergeOptions {
+  std::vector<fs::path> sources;
+  fs::path out;
+  fs::path results;
   bool quiet = false;
 };
 
@@ -43,32 +66,91 @@ ExitCode complain(const Error& error, ExitCode exit_code) {
   return exit_code;
 }
 
-std::vector<eval::Trial> run_all(const EvalOptions& options, const std::vector<FrameEntry>& frames,
-                                 eval::Evaluator& evaluator) {
-  ProgressBar progress("eval", static_cast<int>(frames.size()), options.quiet);
-  std::vector<eval::Trial> trials;
-  for (const FrameEntry& entry : frames) {
-    trials.push_back(evaluator.run(entry.folder, entry.name));
-    progress.advance();
-  }
-  return trials;
+ExitCode complain(const Error& error) {
+  return complain(error, error.code == ErrorCode::kIo ? ExitCode::kFailed : ExitCode::kUsage);
 }
 
-std::string heading(const EvalOptions& options, const eval::Evaluator& evaluator) {
-  return fmt::format(
-      "# Evaluation\n\n{} draws of {} steps on {}; weights: {}.\n\n", evaluator.estimator().draws(),
-      evaluator.estimator().euler_steps(), evaluator.estimator().device(),
-      options.config.weights.empty() ? "those that ship" : options.config.weights.string());
+Result<void> make_out(const fs::path& out) {
+  std::error_code failure;
+  fs::create_directories(out, failure);
+  if (!failure && fs::is_directory(out, failure)) return {};
+  return Error{ErrorCode::kIo, fmt::format("--out {}: cannot be made: {}; choose another folder",
+                                           out.string(), failure.message())};
+}
+
+Result<std::string> sum_of_weights(const fs::path& named) {
+  auto file = named.empty() ? estimator::default_weights() : Result<fs::path>(named);
+  if (!file) return file.error();
+  auto info = inspect_weights(*file);
+  if (!info) return info.error();
+  return info->sha256;
+}
+
+Result<eval::RunInfo> describe(const EvalOptions& options, const std::vector<FrameEntry>& frames,
+                               const eval::Shard& shard, const std::string& device) {
+  const auto sum = sum_of_weights(options.config.weights);
+  if (!sum) return sum.error();
+  eval::RunInfo info;
+  info.settings = eval::settings_of(options.config, *sum);
+  info.settings["build"] = build_sum();
+  const auto others = eval::settings_of(options.contenders);
+  if (!others) return others.error();
+  info.settings.insert(others->begin(), others->end());
+  info.weights = options.config.weights.string();
+  info.device = device;
+  bool recorded = false;
+  for (const FrameEntry& entry : frames) {
+    info.frames.push_back(entry.name);
+    recorded = recorded || entry.read;
+  }
+  if (recorded) info.settings["recordings"] = described(options.recordings);
+  info.shard = shard;
+  return info;
+}
+
+/// One a job. The cores are shared among them, unless --threads says otherwise.
+Result<std::vector<eval::Evaluator>> create_evaluators(const EvalOptions& options,
+                                                       std::size_t rows) {
+  Config config = options.config;
+  const int jobs = static_cast<int>(std::min(rows, static_cast<std::size_t>(options.jobs)));
+  const int cores = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  if (config.threads == 0 && jobs > 1) config.threads = std::max(1, cores / jobs);
+  std::vector<eval::Evaluator> evaluators;
+  for (int i = 0; i < jobs; ++i) {
+    auto evaluator = eval::Evaluator::create(config, options.contenders);
+    if (!evaluator) return evaluator.error();
+    evaluators.push_back(*std::move(evaluator));
+  }
+  return evaluators;
+}
+
+/// Evaluates the rows that `file` lacks.
+Result<void> run_rows(const EvalOptions& options, const std::vector<FrameEntry>& frames,
+                      std::vector<eval::Evaluator>& evaluators, eval::RowFile& file) {
+  if (file.kept() > 0 && !options.quiet) {
+    fmt::print(stderr, "{}: keeps {} rows of an earlier run, {} to go\n", file.path().string(),
+               file.kept(), file.lacking().size());
+  }
+  std::vector<eval::Worker> workers;
+  for (eval::Evaluator& evaluator : evaluators) {
+    workers.emplace_back([&](std::size_t row) {
+      const FrameEntry& entry = frames[row];
+      if (!entry.read) return evaluator.run(entry.folder, entry.name);
+      return evaluator.run(keep_recorded_frame(options.out, entry), eval::SceneInfo{},
+                           recorded_frame_folder(options.out, entry), entry.name);
+    });
+  }
+  ProgressBar progress("eval", static_cast<int>(file.lacking().size()), options.quiet);
+  return eval::run_jobs(file.lacking(), workers, [&](eval::Row row) {
+    row.trial.name = frames[row.index].name;  // a row that threw has none
+    auto written = file.append(row);
+    progress.advance();
+    return written;
+  });
 }
 
 Result<void> save(const fs::path& out, const std::string& tables,
                   const std::vector<eval::Trial>& trials) {
-  std::error_code failure;
-  fs::create_directories(out, failure);
-  if (failure || !fs::is_directory(out, failure)) {
-    return Error{ErrorCode::kIo, fmt::format("--out {}: cannot be made: {}; choose another folder",
-                                             out.string(), failure.message())};
-  }
   const auto bars = eval::error_bars_png(trials);
   if (!bars) return bars.error();
   const auto curve = eval::error_curve_png(trials);
@@ -76,6 +158,7 @@ Result<void> save(const fs::path& out, const std::string& tables,
   frame::StagedFiles staged;
   if (auto done = staged.add(out / "tables.md", tables); !done) return done;
   if (auto done = staged.add(out / "rows.csv", eval::rows_csv(trials)); !done) return done;
+  if (auto done = staged.add(out / "timings.csv", eval::timings_csv(trials)); !done) return done;
   if (auto done = staged.add(out / "error_bars.png", *bars); !done) return done;
   if (auto done = staged.add(out / "error_curve.png", *curve); !done) return done;
   return staged.commit();
@@ -96,7 +179,7 @@ Result<void> draw_worst(const EvalOptions& options, const std::vector<FrameEntry
   fs::create_directories(options.out / "worst", failure);
   frame::StagedFiles staged;
   for (const std::size_t i : order) {
-    const auto folder = load_frame_folder(frames[i].folder);
+    const auto folder = load_frame(frames[i]);
     if (!folder) return folder.error();
     const auto picture = eval::error_overlay_png(folder->frame(), trials[i].truth, trials[i].nodes);
     if (!picture) return picture.error();
@@ -128,26 +211,81 @@ ExitCode run_sweep(const EvalOptions& options, const std::vector<FrameEntry>& fr
   return ExitCode::kDone;
 }
 
+/// Tables and plots of everything that `merged` holds: of one run or of many parts, the same bytes.
+ExitCode report(const fs::path& out, const fs::path& results, const eval::MergedRows& merged,
+                bool quiet) {
+  const std::string tables =
+      eval::heading(merged.info, merged.devices) + eval::tables_markdown(merged.trials);
+  if (const auto saved = save(out, tables, merged.trials); !saved) {
+    return complain(saved.error(), ExitCode::kFailed);
+  }
+  if (const auto saved = save_chapter(out, results, merged); !saved) {
+    return complain(saved.error(), ExitCode::kFailed);
+  }
+  if (!quiet) fmt::print("{}\n{}", tables, eval::timing_sentence(merged.trials));
+  return ExitCode::kDone;
+}
+
+ExitCode finish(const EvalOptions& options, const std::vector<FrameEntry>& frames,
+                const eval::RowFile& file, const eval::Shard& shard) {
+  if (!shard.whole()) {
+    if (!options.quiet) {
+      fmt::print("{}: every row of shard {} is there; flowdlo eval merge makes the tables\n",
+                 file.path().string(), options.shard);
+    }
+    return ExitCode::kDone;
+  }
+  // What was measured goes through the file as well, so that nothing can be in the tables that
+  // rows of a merge would not have.
+  const auto merged = eval::merge_rows({file.path()});
+  if (!merged) return complain(merged.error(), ExitCode::kFailed);
+  if (options.worst > 0) {
+    if (const auto drawn = draw_worst(options, frames, merged->trials); !drawn) {
+      return complain(drawn.error(), ExitCode::kFailed);
+    }
+  }
+  return report(options.out, options.results, *merged, options.quiet);
+}
+
 ExitCode run(const EvalOptions& options) {
-  const auto frames = list_frames(options.frames);
+  const auto shard = eval::parse_shard(options.shard);
+  if (!shard) return complain(shard.error());
+  const auto frames =
+      list_frames(options.frames, recording_opener(options.recordings, options.quiet));
   if (!frames) return complain(frames.error(), ExitCode::kUsage);
   if (!options.sweep_steps.empty() || !options.sweep_draws.empty()) {
     return run_sweep(options, *frames);
   }
-  auto evaluator = eval::Evaluator::create(options.config);
-  if (!evaluator) return complain(evaluator.error(), ExitCode::kUsage);
-  const auto trials = run_all(options, *frames, *evaluator);
-  const std::string tables = heading(options, *evaluator) + eval::tables_markdown(trials);
-  if (const auto saved = save(options.out, tables, trials); !saved) {
-    return complain(saved.error(), ExitCode::kFailed);
+  auto evaluators = create_evaluators(options, frames->size());
+  if (!evaluators) return complain(evaluators.error(), ExitCode::kUsage);
+  const auto info = describe(options, *frames, *shard, evaluators->front().device());
+  if (!info) return complain(info.error(), ExitCode::kUsage);
+  if (const auto made = make_out(options.out); !made) return complain(made.error());
+  auto file = eval::RowFile::open(options.out, *info);
+  if (!file) return complain(file.error());
+  if (const auto ran = run_rows(options, *frames, *evaluators, *file); !ran) {
+    return complain(ran.error());
   }
-  if (options.worst > 0) {
-    if (const auto drawn = draw_worst(options, *frames, trials); !drawn) {
-      return complain(drawn.error(), ExitCode::kFailed);
-    }
-  }
-  if (!options.quiet) fmt::print("{}", tables);
-  return ExitCode::kDone;
+  return finish(options, *frames, *file, *shard);
+}
+
+ExitCode run_merge(const MergeOptions& options) {
+  const auto merged = eval::merge_rows(options.sources);
+  if (!merged) return complain(merged.error());
+  if (const auto made = make_out(options.out); !made) return complain(made.error());
+  return report(options.out, options.results, *merged, options.quiet);
+}
+
+CLI::App* add_merge_command(CLI::App& eval_command, MergeOptions& options) {
+  auto* command = eval_command.add_subcommand("merge", "Rows of shards in, tables and plots out");
+  command->add_option("DIR", options.sources, "The --out folders of the shards, or row files")
+      ->required();
+  command->add_option("--out", options.out, "For tables, rows, figures and report.html")
+      ->required()
+      ->type_name("DIR");
+  add_results_option(*command, options.results);
+  command->add_flag("--quiet", options.quiet, "Print errors only");
+  return command;
 }
 
 }  // namespace
@@ -155,12 +293,20 @@ ExitCode run(const EvalOptions& options) {
 void add_eval_command(CLI::App& app, ExitCode& exit_code) {
   auto options = std::make_shared<EvalOptions>();
   auto* command = app.add_subcommand("eval", "Frames with truth in, tables and plots out");
-  command->add_option("DATASET", options->frames, "Folders of frame folders, or frame folders")
-      ->required();
-  command->add_option("--out", options->out, "For tables.md, rows.csv and the plots")
-      ->required()
+  command->add_option("DATASET", options->frames,
+                      "Folders of frame folders, frame folders, or ROS 1 bags");
+  command->add_option("--out", options->out, "For tables, rows, figures and report.html")
       ->type_name("DIR");
   add_model_options(*command, options->config);
+  add_contender_options(*command, options->contenders);
+  add_results_option(*command, options->results);
+  command->add_option("--jobs", options->jobs, "Frames at a time; the rows do not depend on it")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 1024))
+      ->type_name("N");
+  command->add_option("--shard", options->shard, "Part i of n of the rows, for `eval merge`")
+      ->capture_default_str()
+      ->type_name("i/n");
   command->add_option("--worst", options->worst, "Draw the N frames of the largest errors")
       ->capture_default_str()
       ->check(CLI::Range(0, 1000000))
@@ -176,7 +322,20 @@ void add_eval_command(CLI::App& app, ExitCode& exit_code) {
       ->check(CLI::Range(1, 64))
       ->type_name("D,...");
   command->add_flag("--quiet", options->quiet, "Print errors only");
-  command->callback([options, &exit_code] { exit_code = run(*options); });
+  add_recording_options(*command, options->recordings);
+  auto merging = std::make_shared<MergeOptions>();
+  const auto* merge = add_merge_command(*command, *merging);
+  command->callback([options, merging, merge, &exit_code] {
+    if (merge->parsed() && options->frames.empty()) {
+      exit_code = run_merge(*merging);
+      return;
+    }
+    if (merge->parsed()) throw CLI::ExcludesError("DATASET", "merge");
+    // Not ->required(): `eval merge` does without them.
+    if (options->frames.empty()) throw CLI::RequiredError("DATASET");
+    if (options->out.empty()) throw CLI::RequiredError("--out");
+    exit_code = run(*options);
+  });
 }
 
 }  // namespace flowdlo::tools

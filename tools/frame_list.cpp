@@ -31,6 +31,14 @@ std::vector<fs::path> frames_of(const fs::path& folder) {
   return frames;
 }
 
+// Also one that its recorder did not finish: opening it says so.
+bool is_recording(const fs::path& argument) {
+  std::error_code ignored;
+  const std::string name = argument.filename().string();
+  return (name.ends_with(".bag") || name.ends_with(".bag.active")) &&
+         !fs::is_directory(argument, ignored);
+}
+
 std::string repeated_names(const std::vector<FrameEntry>& frames) {
   std::map<std::string, fs::path> first_of;
   std::string faults;
@@ -48,12 +56,19 @@ std::string repeated_names(const std::vector<FrameEntry>& frames) {
 
 }  // namespace
 
-Result<std::vector<FrameEntry>> list_frames(const std::vector<fs::path>& arguments) {
+Result<std::vector<FrameEntry>> list_frames(const std::vector<fs::path>& arguments,
+                                            const OpenRecording& open_recording) {
   std::vector<FrameEntry> frames;
   for (const auto& argument : arguments) {
+    if (open_recording && is_recording(argument)) {
+      auto recorded = open_recording(argument);
+      if (!recorded) return recorded.error();
+      frames.insert(frames.end(), recorded->begin(), recorded->end());
+      continue;
+    }
     auto folders = frames_of(argument);
     if (folders.empty()) folders.push_back(argument);
-    for (const auto& folder : folders) frames.push_back({folder, frame::frame_name(folder)});
+    for (const auto& folder : folders) frames.push_back({folder, frame::frame_name(folder), {}});
   }
   for (const auto& entry : frames) {
     if (entry.name.empty() || entry.name == "..") {

@@ -18,6 +18,17 @@ void add_prior_options(CLI::App& command, Config& config) {
           CLI::ignore_case))
       ->type_name("KIND");
   command
+      .add_option(
+          "--gate", config.gate,
+          "Who decides between predictions and priors: thesis (Eq. 3.30-3.33), calibrated (a "
+          "fitted score), or auto, as the weights were trained")
+      ->transform(CLI::CheckedTransformer(
+          std::map<std::string, GateChoice>{{"auto", GateChoice::kOfWeights},
+                                            {"thesis", GateChoice::kThesis},
+                                            {"calibrated", GateChoice::kCalibrated}},
+          CLI::ignore_case))
+      ->type_name("RULE");
+  command
       .add_option("--rope-length", config.rope_length_m,
                   "Metres, where the rope's length is known; 0: unknown")
       ->capture_default_str()

@@ -1,6 +1,9 @@
 #include "estimator/device_choice.hpp"
 
 #include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <utility>
 
 #include "estimator/self_test.hpp"
 #include "flowdlo/devices.hpp"
@@ -30,6 +33,16 @@ int timeout_ms(const Config& config, DeviceKind kind) {
   return kUsual_ms / kUsualWork * work * (kind == DeviceKind::kCpu ? kCpuDriverFactor : 1);
 }
 
+/// Where compiled kernels and their choice are kept between processes: XDG's cache folder.
+std::filesystem::path cache_folder() {
+  for (const auto& [variable, below] :
+       {std::pair{"XDG_CACHE_HOME", "flowdlo"}, std::pair{"HOME", ".cache/flowdlo"}}) {
+    const char* const folder = std::getenv(variable);
+    if (folder != nullptr && folder[0] == '/') return std::filesystem::path(folder) / below;
+  }
+  return {};
+}
+
 Result<BackEnd> open_vulkan(const Config& config, const std::string& wanted) {
   auto opened = vulkan::open_device(
       {.wanted = wanted, .allow_cpu_driver = true, .validation = config.validation});
@@ -37,7 +50,7 @@ Result<BackEnd> open_vulkan(const Config& config, const std::string& wanted) {
   const auto device = *opened;
   const DeviceReport& report = vulkan::report(*device);
   const vulkan::ProgramOptions options{.timeout_ms = timeout_ms(config, report.kind),
-                                       .pipeline_cache = {}};
+                                       .pipeline_cache = cache_folder()};
   return BackEnd{report.name,
                  [device, options] { return vulkan::create_program(device, options); }};
 }

@@ -6,8 +6,10 @@
 #include <algorithm>
 #include <cmath>
 #include <exception>
+#include <future>
 #include <vector>
 
+#include "estimator/candidates.hpp"
 #include "estimator/conditions.hpp"
 #include "estimator/confidence.hpp"
 #include "estimator/device_choice.hpp"
@@ -16,6 +18,7 @@
 #include "estimator/weights_location.hpp"
 #include "evidence/mask_field.hpp"
 #include "flow/sampler.hpp"
+#include "gate/calibrated.hpp"
 #include "gate/gate.hpp"
 #include "prior/prior.hpp"
 #include "weights/weights.hpp"
@@ -93,6 +96,63 @@ float confidence_of(const std::vector<estimator::Hypothesis>& hypotheses, std::s
   return std::min(1 - of_best, estimator::confidence(other.evidence, 0));
 }
 
+/// What the estimate will be.
+struct Returned {
+  int draw = -1;  // -1: the prior of the hypothesis
+  std::size_t hypothesis = 0;
+  float confidence = 0;
+  std::array<float, kNodes> sigma_m{};
+};
+
+/// Eq. (3.33).
+Returned by_thesis(const std::vector<estimator::Hypothesis>& hypotheses,
+                   const flow::Prediction& prediction, const gate::Verdict& verdict,
+                   const std::vector<int>& assigned) {
+  Returned returned;
+  returned.draw = verdict.draw;
+  if (verdict.draw >= 0) {
+    const int hypothesis = assigned[static_cast<std::size_t>(verdict.draw)];
+    returned.hypothesis = static_cast<std::size_t>(hypothesis);
+  }
+  returned.confidence = confidence_of(hypotheses, returned.hypothesis);
+  returned.sigma_m = estimator::node_sigma(verdict.source, verdict.draw, prediction,
+                                           hypotheses[returned.hypothesis].prior);
+  return returned;
+}
+
+/// The candidate that the fitted score prefers.
+Returned by_score(const std::vector<gate::Candidate>& candidates) {
+  const gate::Choice choice = gate::choose_calibrated(candidates);
+  const gate::Candidate& chosen = candidates[choice.chosen];
+  return {chosen.draw, static_cast<std::size_t>(chosen.hypothesis),
+          static_cast<float>(choice.probability), choice.sigma_m};
+}
+
+/// The caller's view of what the gate chose.
+Estimate conclude(const Returned& returned, const std::vector<estimator::Hypothesis>& hypotheses,
+                  const flow::Prediction& prediction, gate::Verdict verdict,
+                  const gate::DilatedMask& mask, const Frame& frame) {
+  const prior::Prior& prior = hypotheses[returned.hypothesis].prior;
+  Estimate estimate;
+  estimate.source = returned.draw >= 0 ? Source::kPrediction : Source::kPrior;
+  estimate.draw = returned.draw;
+  estimate.nodes =
+      returned.draw >= 0 ? prediction.draws[static_cast<std::size_t>(returned.draw)] : prior.nodes;
+  estimate.support = prior.support;
+  estimate.sigma_m = returned.sigma_m;
+  estimate.mask_agreement = mask.agreement(estimate.nodes, frame.intrinsics);
+  estimate.prior_mask_agreement = verdict.prior_agreement;
+  estimate.confidence = returned.confidence;
+  estimate.draws = std::move(verdict.draws);
+  for (std::size_t i = 0; i < hypotheses.size(); ++i) {
+    if (i == returned.hypothesis) continue;
+    const auto& other = hypotheses[i];
+    estimate.alternatives.push_back({other.prior.nodes, static_cast<float>(other.score),
+                                     mask.agreement(other.prior.nodes, frame.intrinsics)});
+  }
+  return estimate;
+}
+
 }  // namespace
 
 struct Estimator::Impl {
@@ -105,10 +165,8 @@ struct Estimator::Impl {
   Result<Estimate> estimate(const Frame& frame, Tensors* tensors);
   Result<flow::Prediction> sample(const flow::SampleInput& input);
   [[nodiscard]] weights::PriorKind prior_kind() const;
-  [[nodiscard]] Estimate conclude(const std::vector<estimator::Hypothesis>& hypotheses,
-                                  const flow::Prediction& prediction, gate::Verdict verdict,
-                                  const std::vector<int>& assigned, const gate::DilatedMask& mask,
-                                  const Frame& frame) const;
+  [[nodiscard]] bool calibrated() const;
+  [[nodiscard]] std::vector<int> assign(const std::vector<estimator::Hypothesis>& hypotheses) const;
 };
 
 Result<std::unique_ptr<Estimator::Impl>> Estimator::Impl::create(const Config& wanted) {
@@ -116,12 +174,14 @@ Result<std::unique_ptr<Estimator::Impl>> Estimator::Impl::create(const Config& w
   auto file = wanted.weights.empty() ? estimator::default_weights()
                                      : Result<std::filesystem::path>(wanted.weights);
   if (!file) return file.error();
+  // Opening a driver takes as long as reading the weights: side by side, where a thread is to be
+  // had.
+  auto choice = std::async([&] { return estimator::choose_back_end(wanted); });
   auto loaded = weights::load(*file);
+  auto back_end = choice.get();
   if (!loaded) return loaded.error();
   const auto weights = std::make_shared<const weights::Weights>(*std::move(loaded));
   const Config config = resolved(wanted, weights->metadata);
-
-  auto back_end = estimator::choose_back_end(config);
   if (!back_end) return back_end.error();
   auto sampler = flow::Sampler::create(weights, back_end->make_program, sampler_config(config));
   if (!sampler) return sampler.error();
@@ -152,32 +212,28 @@ weights::PriorKind Estimator::Impl::prior_kind() const {
   return weights->metadata.variant.prior_kind;
 }
 
-/// The caller's view of what the gate chose, Eq. (3.33).
-Estimate Estimator::Impl::conclude(const std::vector<estimator::Hypothesis>& hypotheses,
-                                   const flow::Prediction& prediction, gate::Verdict verdict,
-                                   const std::vector<int>& assigned, const gate::DilatedMask& mask,
-                                   const Frame& frame) const {
-  const auto at = [](int index) { return static_cast<std::size_t>(index); };
-  const std::size_t used = verdict.draw >= 0 ? at(assigned[at(verdict.draw)]) : 0;
-  const prior::Prior& prior = hypotheses[used].prior;
-
-  Estimate estimate;
-  estimate.source = verdict.source;
-  estimate.draw = verdict.draw;
-  estimate.nodes = verdict.draw >= 0 ? prediction.draws[at(verdict.draw)] : prior.nodes;
-  estimate.support = prior.support;
-  estimate.sigma_m = estimator::node_sigma(verdict.source, verdict.draw, prediction, prior);
-  estimate.mask_agreement = mask.agreement(estimate.nodes, frame.intrinsics);
-  estimate.prior_mask_agreement = verdict.prior_agreement;
-  estimate.confidence = confidence_of(hypotheses, used);
-  estimate.draws = std::move(verdict.draws);
-  for (std::size_t i = 0; i < hypotheses.size(); ++i) {
-    if (i == used) continue;
-    const auto& other = hypotheses[i];
-    estimate.alternatives.push_back({other.prior.nodes, static_cast<float>(other.score),
-                                     mask.agreement(other.prior.nodes, frame.intrinsics)});
+/// Whether the fitted score decides. It was fitted to the model that comes with FlowDLO.
+bool Estimator::Impl::calibrated() const {
+  switch (config.gate) {
+    case GateChoice::kThesis:
+      return false;
+    case GateChoice::kCalibrated:
+      return true;
+    case GateChoice::kOfWeights:
+      break;
   }
-  return estimate;
+  const weights::Metadata& metadata = weights->metadata;
+  return metadata.trained && metadata.variant.head_channels == 4 &&
+         metadata.variant.prior_kind == weights::PriorKind::kRefined;
+}
+
+/// [draws] the hypothesis that conditions each.
+std::vector<int> Estimator::Impl::assign(
+    const std::vector<estimator::Hypothesis>& hypotheses) const {
+  const int count = static_cast<int>(hypotheses.size());
+  if (calibrated()) return estimator::spread_draws(count, config.draws);
+  const float margin = estimator::margin(estimator::lead(hypotheses));
+  return estimator::assign_draws(count, margin, config.draws);
 }
 
 Result<Estimate> Estimator::Impl::estimate(const Frame& frame, Tensors* tensors) {
@@ -190,9 +246,7 @@ Result<Estimate> Estimator::Impl::estimate(const Frame& frame, Tensors* tensors)
   const auto& hypotheses = conditions->hypotheses;
 
   estimator::Stopwatch stage;
-  const float margin = estimator::margin(estimator::lead(hypotheses));
-  const auto assigned =
-      estimator::assign_draws(static_cast<int>(hypotheses.size()), margin, config.draws);
+  const auto assigned = assign(hypotheses);
   std::vector<prior::Prior> draw_priors;
   std::vector<Centerline> draw_prior_nodes;
   for (const int hypothesis : assigned) {
@@ -213,7 +267,12 @@ Result<Estimate> Estimator::Impl::estimate(const Frame& frame, Tensors* tensors)
   const gate::DilatedMask mask(frame);
   auto verdict = gate::choose(prediction->draws, draw_prior_nodes, hypotheses.front().prior.nodes,
                               mask, frame.intrinsics);  // Eq. (3.30)-(3.33)
-  Estimate estimate = conclude(hypotheses, *prediction, std::move(verdict), assigned, mask, frame);
+  const Returned returned =
+      calibrated() ? by_score(estimator::list_candidates(*conditions, *prediction, verdict.draws,
+                                                         assigned, frame, config.rope_length_m))
+                   : by_thesis(hypotheses, *prediction, verdict, assigned);
+  Estimate estimate = conclude(returned, hypotheses, *prediction, std::move(verdict), mask, frame);
+  estimate.calibrated = calibrated();
   stage.lap(timings.gate_ms);
   total.lap(timings.total_ms);
   estimate.timings = std::move(timings);

@@ -58,4 +58,12 @@ std::vector<int> assign_draws(int hypotheses, float margin, int draws) {
   return assigned;
 }
 
+std::vector<int> spread_draws(int hypotheses, int draws) {
+  std::vector<int> assigned(static_cast<std::size_t>(draws), 0);
+  for (int i = 1; i < std::min(hypotheses, draws); ++i) {
+    assigned[static_cast<std::size_t>(draws - i)] = i;
+  }
+  return assigned;
+}
+
 }  // namespace flowdlo::estimator

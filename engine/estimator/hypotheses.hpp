@@ -41,6 +41,10 @@ struct Hypothesis {
 /// winner keeps at least half.
 [[nodiscard]] std::vector<int> assign_draws(int hypotheses, float margin, int draws);
 
+/// [draws] the same for a gate that can tell them apart: every hypothesis gets a draw, best first,
+/// as long as there are draws; those left over go to the winner.
+[[nodiscard]] std::vector<int> spread_draws(int hypotheses, int draws);
+
 inline constexpr float kDoubt = 0.5F;  ///< margin below which runners-up are worth a draw
 inline constexpr double kReach = 6;    ///< path score by which a runner-up may trail the first
 inline constexpr double kSlack = 1;    ///< and by which it may miss the best score so far

@@ -19,6 +19,8 @@ constexpr float kMostBending = 20.0F;
 constexpr float kChangeSides = 4.0F;
 constexpr float kKeepSides = 1.0F;
 constexpr float kSharedWidths = 5.0F;   // longest strand of one width that a second one may lie on
+constexpr float kHidingWidths = 15.0F;  // or hide behind,
+constexpr float kBehindWidths = 2.5F;   // so far at least
 constexpr float kSharing = 0.6F;        // costs this
 constexpr float kLongWidths = 6.0F;     // bridges from this length on,
 constexpr float kCurved = 0.6F;         // or that turn by this angle (rad)
@@ -163,11 +165,24 @@ class Builder {
       const float most = kSharedWidths * strands_.scale_px;
       const bool brief =
           (front.node_px - back.node_px).norm() <= most && strands_.list[s].covers_px <= most;
-      if (!brief && !strands_.list[s].doubled) continue;
       for (const int from : met[front.crossing]) {
-        for (const int to : met[back.crossing]) pass_along(s, from, to);
+        for (const int to : met[back.crossing]) {
+          if (brief || strands_.list[s].doubled || behind(s, from, to)) pass_along(s, from, to);
+        }
       }
     }
+  }
+
+  // Whether `from` and `to` lie so far behind the strand between them that it may hide what joins
+  // them: a loop in the air seen edge-on.
+  [[nodiscard]] bool behind(int shared, int from, int to) const {
+    if (strands_.list[shared].covers_px > kHidingWidths * strands_.scale_px) return false;
+    const auto hides = [&](const StrandEnd& near, const StrandEnd& far) {
+      const float width_m = strands_.width_px * near.depth_m / std::max(1.0F, frame_.intrinsics.fx);
+      return near.depth_m > 0 && far.depth_m > near.depth_m + kBehindWidths * width_m;
+    };
+    return hides(strands_.end(2 * shared), strands_.end(from)) &&
+           hides(strands_.end(2 * shared + 1), strands_.end(to));
   }
 
   void pass_along(int shared, int from, int to) {
@@ -175,7 +190,8 @@ class Builder {
     const StrandEnd& a = strands_.end(from);
     const StrandEnd& b = strands_.end(to);
     float bend = bending(a, b, strands_.scale_px);
-    if (strands_.list[shared].doubled) {  // its own bend is free: both follow it
+    const bool brief = strands_.list[shared].covers_px <= kSharedWidths * strands_.scale_px;
+    if (strands_.list[shared].doubled || !brief) {  // its own bend is free: both follow it
       const float in = angle(a.outward, -strands_.end(2 * shared).outward);
       const float out = angle(strands_.end(2 * shared + 1).outward, -b.outward);
       bend = std::min(bend, in * in + out * out);

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <opencv2/core.hpp>
+#include <utility>
 #include <vector>
 
 #include "path/cover.hpp"
@@ -28,33 +29,44 @@ constexpr float kSingleShare = 1.3F;    // of the narrow parts' width: one stran
 constexpr float kFewestNarrow = 0.04F;  // share of the stations that are one strand
 constexpr float kDoubleLeast = 1.25F;   // widths: two strands from this
 constexpr float kDoubleMost = 2.7F;     // to this
-constexpr float kMeanLeast = 1.52F;     // in the mean
+constexpr float kMeanLeast = 1.52F;     // in the mean;
+constexpr float kAslantLeast = 1.33F;   // seen aslant, one partly hides the other: between forks
 constexpr float kMeanMost = 2.4F;
 constexpr float kShortest = 4.0F;       // widths; a flat crossing is shorter
 constexpr float kShortestPx = 20.0F;    // what frays leave on thin ropes is shorter too
 constexpr float kTrimWidths = 0.3F;     // what a round tip takes from the stretch
 constexpr float kTangentWidths = 3.0F;  // what tells the direction at its end
 constexpr float kRunOutWidths = 2.5F;   // from there to where the strands part,
+constexpr float kPartWidths = 12.0F;    // from a fork on,
 constexpr float kCutOffWidths = 8.0F;   // or an occluder aslant hides both
 constexpr float kStepWidths = 2.0F;     // within this way two strands become one
 constexpr float kStepKept = 1.5F;       // and stay one for this long,
 constexpr float kSingleLeast = 0.75F;   // this wide at least
 constexpr float kSingleMost = 1.18F;    // and at most
+constexpr float kPixelNoise = 0.8F;     // and a thin one this many pixels more, beside
+constexpr float kClearMean = 1.85F;     // what is this much wider in the mean
 constexpr float kStepLeast = 0.1F;      // aside from the line the one lies at least this far
 constexpr float kTurnWidths = 1.0F;     // a strand that turns back takes this at the tip
 constexpr float kCornerDeep = 0.25F;    // so far before the edge a mask cut off
 constexpr float kCornerAside = 0.8F;    // reaches so far aside, a round one does not
 constexpr float kStandsSeamPx = 8.0F;
 constexpr float kLeastWidthPx = 1.5F;
+constexpr float kForkedLeast = 1.18F;  // times its branches' width: a stem of two strands
+constexpr float kForkedMost = 2.7F;
+constexpr float kForkedSpread = 1.35F;  // and even
+constexpr float kBranchFrom = 1.0F;     // branches tell from this many widths off the fork
+constexpr float kBranchTo = 8.0F;       // to this many
+constexpr std::size_t kFewestStations = 4;
 
 // Across the line at one of its points.
 struct Station {
   Vector2f middle_px{0, 0};  // of the mask
   Vector2f normal{0, 0};     // to its left
   float width_px = 0;
-  float nearer = 1;   // how many times larger things look than where the rope usually is
-  float size_px = 0;  // the width there
-  bool whole = true;  // no occluder hides a side
+  float nearer = 1;     // how many times larger things look than where the rope usually is
+  float size_px = 0;    // the width there
+  bool whole = true;    // no occluder hides a side
+  bool seamed = false;  // nor the depth parts it there from a strand that may hide it
 
   [[nodiscard]] Vector2f edge(float side) const {
     return middle_px + 0.5F * side * width_px * normal;
@@ -78,7 +90,14 @@ float reach(const cv::Mat& mask, const Vector2f& p, const Vector2f& direction, f
   return walked - 0.5F * kScanStepPx;
 }
 
-Line measured(const Segment& segment, const cv::Mat& mask, float width_px) {
+// Whether the mask was cut where it ends, at `p` and `aside`.
+bool seam_at(const Region& region, const Vector2f& p, const Vector2f& aside) {
+  const Vector2f step = aside.normalized();
+  return lit(region.seams, p + aside + 0.5F * step) || lit(region.seams, p + aside + 1.2F * step);
+}
+
+Line measured(const Segment& segment, const Region& region, float width_px) {
+  const cv::Mat& mask = region.mask;
   const int half = std::clamp(static_cast<int>(std::lround(0.5F * width_px)), 2, 12);
   const Points points = smoothed(segment.points_px, half);
   const int last = static_cast<int>(points.size()) - 1;
@@ -93,6 +112,9 @@ Line measured(const Segment& segment, const cv::Mat& mask, float width_px) {
       const float right = reach(mask, points[i], -station.normal, most);
       station.middle_px += 0.5F * (left - right) * station.normal;
       station.width_px = left + right;
+      station.seamed =
+          !region.seams.empty() && (seam_at(region, points[i], left * station.normal) ||
+                                    seam_at(region, points[i], -right * station.normal));
     }
     line.push_back(station);
   }
@@ -175,7 +197,7 @@ float least_kept(const std::vector<Line>& lines, float width_px, float none) {
   for (const Line& line : lines) {
     for (std::size_t i = 0; i + length <= line.size(); i += step) {
       std::vector<float> sizes;
-      for (std::size_t k = i; k < i + length && line[k].whole; ++k) {
+      for (std::size_t k = i; k < i + length && line[k].whole && !line[k].seamed; ++k) {
         sizes.push_back(line[k].size_px);
       }
       if (sizes.size() < length) continue;
@@ -197,8 +219,9 @@ float single_size(const std::vector<Line>& lines, float usual_px) {
   for (const Line& line : lines) {
     all += line.size();
     for (const Station& station : line) {
-      if (station.whole && station.size_px <= kSingleShare * narrow)
+      if (station.whole && !station.seamed && station.size_px <= kSingleShare * narrow) {
         single.push_back(station.size_px);
+      }
     }
   }
   if (static_cast<float>(single.size()) < kFewestNarrow * static_cast<float>(all)) return 0;
@@ -208,7 +231,7 @@ float single_size(const std::vector<Line>& lines, float usual_px) {
 class Cutter {
  public:
   Cutter(const Graph& graph, const cv::Mat& mask, float width_px)
-      : graph_(graph), mask_(mask), size_px_(width_px) {}
+      : graph_(graph), mask_(mask), size_px_(width_px), narrowest_px_(width_px) {}
 
   void cut(const Segment& segment, const Line& line) {
     const int count = static_cast<int>(line.size());
@@ -216,30 +239,102 @@ class Cutter {
       if (!wide(line[first])) continue;
       int last = first;
       float sum = 0;
-      for (; last < count && wide(line[last]); ++last) sum += widths(line[last]);
+      for (; last < count && goes_on(line, last); ++last) sum += widths(line[last]);
       const auto length = static_cast<float>(last - first);
       const float mean = sum / length;
       const float width_px = size_px_ * line[(first + last) / 2].nearer;
-      if (length >= std::max(kShortest * width_px, kShortestPx) && mean > kMeanLeast &&
-          mean < kMeanMost) {
+      clear_ = mean > kClearMean;
+      if (length >= std::max(kShortest * width_px, kShortestPx) && mean < kMeanMost &&
+          mean > (anchored(segment, line, first, last - 1) ? kAslantLeast : kMeanLeast)) {
         draw(segment, line, first, last - 1);
       }
       first = last;
     }
   }
 
+  // The same for a stem between two forks, each with two branches narrower than the stem. Seen
+  // aslant, two strands are not much wider than one; but four branches need two strands.
+  void cut_stem(std::size_t stem, const std::vector<Line>& lines) {
+    const Segment& segment = graph_.segments[stem];
+    if (!forks(segment, 0) || !forks(segment, 1)) return;
+    std::vector<float> branches;
+    for (const int node : segment.node) {
+      const std::size_t before = branches.size();
+      for (const int end : graph_.nodes[static_cast<std::size_t>(node)].ends) {
+        if (static_cast<std::size_t>(end / 2) != stem) gather(lines, end, branches);
+      }
+      if (branches.size() < before + kFewestStations) return;
+    }
+    const float branch_px = quantile(branches, 0.5F);
+    const Line& line = lines[stem];
+    const auto trim = static_cast<std::size_t>(kBranchFrom * branch_px) + 1;
+    const float shortest = std::max(kShortest * branch_px, kShortestPx);
+    if (static_cast<float>(line.size()) < shortest + 2 * static_cast<float>(trim)) return;
+    std::vector<float> sizes;
+    for (std::size_t i = trim; i + trim < line.size(); ++i) {
+      if (line[i].seamed) return;
+      sizes.push_back(line[i].size_px);
+    }
+    const float ratio = quantile(sizes, 0.5F) / branch_px;
+    if (ratio < kForkedLeast || ratio > kForkedMost) return;
+    if (quantile(sizes, 0.85F) > kForkedSpread * quantile(sizes, 0.15F)) return;
+    clear_ = ratio > kClearMean;
+    const float usual_px = std::exchange(size_px_, branch_px);
+    const std::size_t had = found_.size();
+    draw(segment, line, static_cast<int>(trim), static_cast<int>(line.size() - trim) - 1);
+    size_px_ = usual_px;
+    if (found_.size() > had) narrowest_px_ = std::min(narrowest_px_, branch_px);
+  }
+
   [[nodiscard]] const std::vector<Points>& found() const { return found_; }
+  // Of one strand: what was told, or the narrowest branch of a stem that was cut.
+  [[nodiscard]] float strand_px() const { return narrowest_px_; }
 
  private:
   [[nodiscard]] float widths(const Station& station) const { return station.size_px / size_px_; }
   [[nodiscard]] bool wide(const Station& station) const {
     return widths(station) > kDoubleLeast && widths(station) < kDoubleMost;
   }
+  // Wide at `i`, or wider still for no longer than a strand is wide.
+  [[nodiscard]] bool goes_on(const Line& line, int i) const {
+    const int count = static_cast<int>(line.size());
+    const int most = i + static_cast<int>(size_px_) + 1;
+    for (; i < std::min(count, most) && widths(line[i]) >= kDoubleMost; ++i) {
+    }
+    return i < count && wide(line[i]);
+  }
   [[nodiscard]] bool single(const Station& station) const {
-    return station.whole && widths(station) > kSingleLeast && widths(station) < kSingleMost;
+    const float most = clear_ ? std::max(kSingleMost, 1 + kPixelNoise / size_px_) : kSingleMost;
+    return station.whole && widths(station) > kSingleLeast && widths(station) < most;
   }
   [[nodiscard]] bool at_tip(const Segment& segment, int side) const {
     return !segment.ring() && graph_.nodes[segment.node[side]].ends.size() == 1;
+  }
+
+  // Whether both ends of a stretch show where a second strand comes or goes: a fork, or a step.
+  [[nodiscard]] bool anchored(const Segment& segment, const Line& line, int first, int last) const {
+    const float width_px = size_px_ * line[(first + last) / 2].nearer;
+    const Line after(line.begin() + last + 1, line.end());
+    Line before(line.begin(), line.begin() + first);
+    std::reverse(before.begin(), before.end());
+    return (forks(segment, 0) || step(before, width_px) != nullptr) &&
+           (forks(segment, 1) || step(after, width_px) != nullptr);
+  }
+  [[nodiscard]] bool forks(const Segment& segment, int side) const {
+    return !segment.ring() && graph_.nodes[segment.node[side]].ends.size() > 2;
+  }
+
+  // The sizes near a segment's end; 2 * segment + side.
+  static void gather(const std::vector<Line>& lines, int end, std::vector<float>& sizes) {
+    const Line& line = lines[static_cast<std::size_t>(end / 2)];
+    if (line.empty()) return;
+    const float width_px = std::max(1.0F, line[line.size() / 2].size_px);
+    const auto from = static_cast<std::size_t>(kBranchFrom * width_px) + 1;
+    const auto to = std::min(line.size(), static_cast<std::size_t>(kBranchTo * width_px) + 1);
+    for (std::size_t i = from; i < to; ++i) {
+      const Station& station = end % 2 == 0 ? line[i] : line[line.size() - 1 - i];
+      if (!station.seamed) sizes.push_back(station.size_px);
+    }
   }
 
   void draw(const Segment& segment, const Line& line, int first, int last) {
@@ -250,9 +345,9 @@ class Cutter {
     const Line after(line.begin() + last + 1, line.end());
     Line before(line.begin(), line.begin() + first);
     std::reverse(before.begin(), before.end());
-    const bool e1 = end_at(points, after, at_tip(segment, 1));
+    const bool e1 = end_at(points, after, at_tip(segment, 1)) || part_at(points, segment, 1);
     std::reverse(points.begin(), points.end());
-    const bool e2 = end_at(points, before, at_tip(segment, 0));
+    const bool e2 = end_at(points, before, at_tip(segment, 0)) || part_at(points, segment, 0);
     if (!e1 || !e2) return;
     // A whole piece of the mask as wide as this is one rope.
     if (at_tip(segment, 0) && at_tip(segment, 1) && !step(before, width_px) &&
@@ -302,6 +397,40 @@ class Cutter {
     return points.size() > 1;
   }
 
+  // Ends the line at its back where the two branches of the segment's fork part: midway between
+  // them from the fork on, to the first point that is no mask. False when there is none near.
+  [[nodiscard]] bool part_at(Points& points, const Segment& segment, int side) const {
+    if (!forks(segment, side)) return false;
+    const Node& node = graph_.nodes[static_cast<std::size_t>(segment.node[side])];
+    std::vector<int> ends;
+    for (const int end : node.ends) {
+      const Segment& branch = graph_.segments[static_cast<std::size_t>(end / 2)];
+      if (&branch != &segment) ends.push_back(end);
+    }
+    const float near_px = kRunOutWidths * size_px_ + 2;
+    if (ends.size() != 2 || (points.back() - node.position_px).norm() > near_px) return false;
+    Points on = points;
+    on.push_back(node.position_px);
+    const auto most = static_cast<std::size_t>(kPartWidths * size_px_) + 2;
+    for (std::size_t i = 1; i < most; ++i) {
+      const Vector2f* a = along_branch(ends[0], i);
+      const Vector2f* b = along_branch(ends[1], i);
+      if (a == nullptr || b == nullptr) return false;
+      on.push_back(0.5F * (*a + *b));
+      if (lit(mask_, on.back())) continue;
+      points = std::move(on);
+      return true;
+    }
+    return false;
+  }
+
+  // The point `i` steps from an end of a segment, before its middle; null beyond.
+  [[nodiscard]] const Vector2f* along_branch(int end, std::size_t i) const {
+    const Points& points = graph_.segments[static_cast<std::size_t>(end / 2)].points_px;
+    if (2 * i >= points.size()) return nullptr;
+    return end % 2 == 0 ? &points[i] : &points[points.size() - 1 - i];
+  }
+
   // Where the line, bending on as it does, comes nearest to `p`.
   static Vector2f ahead(const Points& points, std::size_t back, const Vector2f& p) {
     const std::size_t last = points.size() - 1;
@@ -338,6 +467,8 @@ class Cutter {
   const Graph& graph_;
   const cv::Mat& mask_;
   float size_px_;
+  float narrowest_px_;
+  bool clear_ = false;  // the stretch at hand is too wide for one strand whatever its noise
   std::vector<Points> found_;
 };
 
@@ -349,14 +480,18 @@ Doubles find_doubles(const Graph& graph, const Region& region, const Frame& fram
   std::vector<Line> lines;
   for (const Segment& segment : graph.segments) {
     lines.emplace_back();
-    if (segment.alive) lines.back() = measured(segment, region.mask, graph.width_px);
+    if (segment.alive) lines.back() = measured(segment, region, graph.width_px);
   }
   calm(lines, Cover(region, frame, graph.width_px), graph.width_px);
   const float width_px = single_size(lines, graph.width_px);
-  if (width_px < kLeastWidthPx) return {};
-  Cutter cutter(graph, region.mask, width_px);
-  for (std::size_t i = 0; i < lines.size(); ++i) cutter.cut(graph.segments[i], lines[i]);
-  return {cutter.found(), width_px};
+  const bool told = width_px >= kLeastWidthPx;
+  Cutter cutter(graph, region.mask, told ? width_px : graph.width_px);
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    const std::size_t had = cutter.found().size();
+    if (told) cutter.cut(graph.segments[i], lines[i]);
+    if (cutter.found().size() == had && !lines[i].empty()) cutter.cut_stem(i, lines);
+  }
+  return {cutter.found(), cutter.strand_px()};
 }
 
 }  // namespace flowdlo::path

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace flowdlo::prior {
@@ -17,9 +18,11 @@ constexpr float kNearShare = 0.35F;        // quantile of a block's depths: pixe
 constexpr float kSteepest = 2.7F;          // metres of depth a metre aside
 constexpr float kJumpWidths = 2.0F;
 constexpr float kJumpShare = 0.01F;      // of the depth: noise
+constexpr float kHoleWidths = 6.0F;      // without readings
 constexpr float kSunkShare = 0.35F;      // of the neighbour's height over the background, at most
-constexpr std::size_t kLeastBlocks = 3;  // of a stretch in mid-air
+constexpr std::size_t kLeastBlocks = 6;  // of a stretch in mid-air
 constexpr float kHighWidths = 10.0F;     // over the background: in mid-air
+constexpr float kHighShare = 0.35F;      // and of the highest stretch's height
 constexpr float kLeastHanging = 0.25F;   // of all blocks; less is something before the rope
 
 struct Block {
@@ -29,7 +32,7 @@ struct Block {
   float aside = 0;
 };
 
-/// Blocks that no jump parts.
+/// Blocks that neither a jump nor a hole parts.
 struct Run {
   std::size_t first = 0;
   std::size_t last = 0;
@@ -74,54 +77,96 @@ float reach_m(const Block& a, const Block& b, float width_px) {
 }
 
 std::vector<Run> runs_of(const std::vector<Block>& blocks, float width_px) {
-  std::vector<Run> runs;
-  for (std::size_t i = 0; i < blocks.size(); ++i) {
-    const bool on = i > 0 && std::abs(blocks[i].depth_m - blocks[i - 1].depth_m) <=
-                                 reach_m(blocks[i], blocks[i - 1], width_px);
-    if (!on) runs.push_back({i, i});
+  std::vector<Run> runs{{0, 0}};
+  for (std::size_t i = 1; i < blocks.size(); ++i) {
+    const Block& before = blocks[i - 1];
+    const bool jump =
+        std::abs(blocks[i].depth_m - before.depth_m) > reach_m(blocks[i], before, width_px);
+    const bool hole = blocks[i].arclength_px - before.arclength_px > kHoleWidths * width_px;
+    if (jump || hole) runs.push_back({i, i});
     runs.back().last = i;
   }
   return runs;
 }
 
-/// Median height of a run's blocks over the background, as a share of that of `near_m`, or in
-/// widths where that is 0. Below 0 without any background.
-float height(const std::vector<Block>& blocks, const Run& run, float near_m, float width_px) {
+/// Median height of a run's blocks over the background; nothing without any.
+std::optional<float> height_m(const std::vector<Block>& blocks, const Run& run) {
   std::vector<float> heights;
+  for (std::size_t i = run.first; i <= run.last; ++i) {
+    if (blocks[i].beside_m > 0) heights.push_back(blocks[i].beside_m - blocks[i].depth_m);
+  }
+  if (heights.empty()) return std::nullopt;
+  return quantile(heights, 0.5F);
+}
+
+/// The same as a share of the height that `near_m` has there.
+std::optional<float> height_share(const std::vector<Block>& blocks, const Run& run, float near_m) {
+  std::vector<float> shares;
   for (std::size_t i = run.first; i <= run.last; ++i) {
     const Block& block = blocks[i];
     if (block.beside_m <= near_m) continue;
-    const float unit =
-        near_m > 0 ? block.beside_m - near_m : width_px * block.aside * block.depth_m;
-    heights.push_back((block.beside_m - block.depth_m) / unit);
+    shares.push_back((block.beside_m - block.depth_m) / (block.beside_m - near_m));
   }
-  return heights.empty() ? -1 : quantile(heights, 0.5F);
+  if (shares.empty()) return std::nullopt;
+  return quantile(shares, 0.5F);
 }
 
 std::size_t size(const Run& run) { return run.last - run.first + 1; }
 
-/// Marks the runs that are sunk: beside one in mid-air, farther, and close to the background.
-void mark_sunk(const std::vector<Block>& blocks, float width_px, std::vector<Run>& runs) {
+/// Marks the runs high over the background, beside the highest; their share of all blocks.
+float mark_hanging(const std::vector<Block>& blocks, float width_px, std::vector<Run>& runs) {
+  float highest_m = 0;
+  for (const Run& run : runs) {
+    if (size(run) >= kLeastBlocks) {
+      highest_m = std::max(highest_m, height_m(blocks, run).value_or(0));
+    }
+  }
   std::size_t hanging = 0;
   for (Run& run : runs) {
-    run.hangs = size(run) >= kLeastBlocks && height(blocks, run, 0, width_px) > kHighWidths;
+    const Block& middle = blocks[(run.first + run.last) / 2];
+    const float width_m = width_px * middle.aside * middle.depth_m;
+    run.hangs =
+        size(run) >= kLeastBlocks &&
+        height_m(blocks, run).value_or(0) > std::max(kHighWidths * width_m, kHighShare * highest_m);
     if (run.hangs) hanging += size(run);
   }
-  if (static_cast<float>(hanging) < kLeastHanging * static_cast<float>(blocks.size())) return;
+  return static_cast<float>(hanging) / static_cast<float>(blocks.size());
+}
+
+/// The nearest run in mid-air before `r` (`step` -1) or after it (1); null without one.
+const Run* hanging_beside(const std::vector<Run>& runs, std::size_t r, int step) {
+  for (auto i = static_cast<std::ptrdiff_t>(r) + step;
+       i >= 0 && i < static_cast<std::ptrdiff_t>(runs.size()); i += step) {
+    const Run& run = runs[static_cast<std::size_t>(i)];
+    if (run.hangs) return &run;
+  }
+  return nullptr;
+}
+
+/// Marks the runs that are sunk: farther than those in mid-air around them, and close to the
+/// background; or a few pixels somewhere between the two.
+void mark_sunk(const std::vector<Block>& blocks, float width_px, std::vector<Run>& runs) {
+  if (mark_hanging(blocks, width_px, runs) < kLeastHanging) return;
   for (std::size_t r = 0; r < runs.size(); ++r) {
     float near_m = 0;  // of the neighbours in mid-air
+    int behind = 0;
     bool nearer = false;
-    const auto compare = [&](const Run& other, std::size_t there, std::size_t here) {
-      if (!other.hangs) return;
-      const bool behind = blocks[here].depth_m > blocks[there].depth_m;
-      nearer = nearer || !behind;
-      if (behind) near_m = std::max(near_m, blocks[there].depth_m);
+    const auto compare = [&](const Block& there, const Block& here) {
+      if (std::abs(here.depth_m - there.depth_m) <= reach_m(here, there, width_px)) return;
+      nearer = nearer || here.depth_m < there.depth_m;
+      ++behind;
+      near_m = std::max(near_m, there.depth_m);
     };
-    if (r > 0) compare(runs[r - 1], runs[r - 1].last, runs[r].first);
-    if (r + 1 < runs.size()) compare(runs[r + 1], runs[r + 1].first, runs[r].last);
-    if (near_m <= 0 || nearer) continue;
-    const float share = height(blocks, runs[r], near_m, width_px);
-    runs[r].sunk = share >= 0 && share <= kSunkShare;
+    if (const Run* before = hanging_beside(runs, r, -1)) {
+      compare(blocks[before->last], blocks[runs[r].first]);
+    }
+    if (const Run* after = hanging_beside(runs, r, 1)) {
+      compare(blocks[after->first], blocks[runs[r].last]);
+    }
+    if (behind == 0 || nearer) continue;
+    const auto share = height_share(blocks, runs[r], near_m);
+    const bool between = behind == 2 && size(runs[r]) < kLeastBlocks;
+    runs[r].sunk = between || (share && *share <= kSunkShare);
   }
 }
 
@@ -132,6 +177,7 @@ void drop_sunken(Strip& strip) {
   const int length = std::max(
       1, static_cast<int>(std::max(kBlockWidths * strip.width_px, kLeastBlockPx) / step_px));
   const std::vector<Block> blocks = blocks_of(strip, length);
+  if (blocks.empty()) return;
   std::vector<Run> runs = runs_of(blocks, strip.width_px);
   if (runs.size() < 2) return;
   mark_sunk(blocks, strip.width_px, runs);

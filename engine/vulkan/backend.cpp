@@ -115,6 +115,11 @@ std::vector<std::string> validation_messages(const Device& device) {
 
 bool validation_active(const Device& device) { return device.instance().validates(); }
 
+std::string gemm_name(Device& device) {
+  const std::lock_guard lock(device.tuning_mutex());
+  return device.gemm() ? name_of(*device.gemm()) : std::string{};
+}
+
 std::uint64_t submit_count(const Device& device) { return device.submit_count(); }
 
 std::unique_ptr<ops::Program> create_program(std::shared_ptr<Device> device,

@@ -4,13 +4,17 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
+#include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "flowdlo/devices.hpp"
 #include "flowdlo/result.hpp"
 #include "ops/program.hpp"
+#include "vulkan/gemm_choice.hpp"
 
 namespace flowdlo::vulkan {
 
@@ -45,12 +49,18 @@ struct Survey {
 [[nodiscard]] std::vector<std::string> validation_messages(const Device& device);
 /// Whether the layers are there and watch this device.
 [[nodiscard]] bool validation_active(const Device& device);
+/// How dense layers run on this device, "tile 32 x 32 x 16"; empty before its first program.
+[[nodiscard]] std::string gemm_name(Device& device);
 /// Calls of vkQueueSubmit on this device so far, whoever made them.
 [[nodiscard]] std::uint64_t submit_count(const Device& device);
 
 struct ProgramOptions {
-  int timeout_ms = 10000;                ///< a run that takes longer fails with kDeviceLost
-  std::filesystem::path pipeline_cache;  ///< a folder for compiled pipelines; empty: none is kept
+  int timeout_ms = 10000;  ///< a run that takes longer fails with kDeviceLost
+  /// A folder for compiled pipelines and for the choice of kernels; empty: none is kept.
+  std::filesystem::path pipeline_cache;
+  std::optional<GemmChoice> gemm = std::nullopt;  ///< how dense layers run; none: found out
+  /// Tests' way of making a kernel's results wrong where they are checked.
+  std::function<void(const GemmChoice&, std::span<float>)> disturb = nullptr;
 };
 
 /// A program for one device; several may share a device, also across threads. After a run that

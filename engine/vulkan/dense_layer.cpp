@@ -3,7 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cassert>
+#include <cstring>
+
+#include "weights/half.hpp"
 
 namespace flowdlo::vulkan {
 namespace {
@@ -11,11 +15,13 @@ namespace {
 constexpr int kNarrowInputs = 8;
 constexpr int kHeadOutputs = 4;
 
-Packing packing_of(int out, int in) {
+Packing packing_of(GemmFamily family, int out, int in, std::span<const float> weight) {
   if (out == ops::kWidth && in >= 1 && in <= kNarrowInputs) return Packing::kNarrow;
   if (in == ops::kWidth && out >= 3 && out <= kHeadOutputs) return Packing::kHead;
-  if (out % kPanel == 0 && in % 16 == 0 && in > 0) return Packing::kGemm;
-  return Packing::kNone;
+  const int depth = family == GemmFamily::kSimd ? 16 : 64;
+  if (out % kPanel != 0 || in % depth != 0 || in <= 0) return Packing::kNone;
+  if (family == GemmFamily::kSimd) return Packing::kPanels;
+  return family == GemmFamily::kMatrix || are_halves(weight) ? Packing::kHalves : Packing::kRows;
 }
 
 /// [rows, columns] in the corner of [padded_rows, padded_columns].
@@ -33,28 +39,61 @@ std::vector<float> padded(std::span<const float> values, int rows, int columns, 
 }  // namespace
 
 std::vector<float> pack_panels(std::span<const float> weight, int out, int in) {
+  constexpr int kBlock = 8;  // columns read side by side: each stays in the cache
   std::vector<float> packed(weight.size());
-  for (int column = 0; column < out; ++column) {
-    for (int k = 0; k < in; ++k) {
-      const std::size_t panel = static_cast<std::size_t>(column / kPanel) * (in / 4) * kPanel;
-      const std::size_t texel = panel + static_cast<std::size_t>(k / 4) * kPanel + column % kPanel;
-      packed[texel * 4 + k % 4] = weight[static_cast<std::size_t>(column) * in + k];
+  for (int first = 0; first < out; first += kBlock) {
+    const std::size_t panel = static_cast<std::size_t>(first / kPanel) * (in / 4) * kPanel;
+    float* const to = packed.data() + (panel + static_cast<std::size_t>(first % kPanel)) * 4;
+    const float* const from = weight.data() + static_cast<std::size_t>(first) * in;
+    for (int k = 0; k < in; k += 4) {
+      for (int column = 0; column < kBlock; ++column) {
+        std::copy_n(from + static_cast<std::ptrdiff_t>(column) * in + k, 4,
+                    to + (static_cast<std::ptrdiff_t>(k) / 4 * kPanel + column) * 4);
+      }
     }
   }
   return packed;
+}
+
+std::vector<float> pack_halves(std::span<const float> weight) {
+  std::vector<float> packed(weight.size() / 2);
+  for (std::size_t i = 0; i < packed.size(); ++i) {
+    const std::array<std::uint16_t, 2> pair{weights::float_to_half(weight[2 * i]),
+                                            weights::float_to_half(weight[2 * i + 1])};
+    std::memcpy(&packed[i], pair.data(), sizeof(float));
+  }
+  return packed;
+}
+
+bool are_halves(std::span<const float> weight) {
+  return std::all_of(weight.begin(), weight.end(), [](float value) {
+    return weights::half_to_float(weights::float_to_half(value)) == value;
+  });
 }
 
 DenseLayer keep_layer(Plan& plan, std::string_view name, int out, int in,
                       std::span<const float> weight, std::span<const float> bias) {
   assert(weight.size() == static_cast<std::size_t>(out) * in);
   assert(bias.size() == static_cast<std::size_t>(out));
-  DenseLayer layer{.packing = packing_of(out, in), .in = in, .out = out, .weight = {}, .bias = {}};
-  const auto keep = [&](int rows, int columns, const std::vector<float>& content) {
-    return plan.tensor(Home::kDevice, name, rows, columns, content);
+  DenseLayer layer{.packing = packing_of(plan.gemm().family, out, in, weight),
+                   .in = in,
+                   .out = out,
+                   .weight = {},
+                   .bias = {}};
+  const auto keep = [&](int rows, int columns, std::vector<float> content) {
+    return plan.tensor(Home::kDevice, name, rows, columns, std::move(content));
   };
   switch (layer.packing) {
-    case Packing::kGemm:
+    case Packing::kPanels:
       layer.weight = keep(out, in, pack_panels(weight, out, in));
+      layer.bias = keep(1, out, {bias.begin(), bias.end()});
+      break;
+    case Packing::kRows:
+      layer.weight = keep(out, in, {weight.begin(), weight.end()});
+      layer.bias = keep(1, out, {bias.begin(), bias.end()});
+      break;
+    case Packing::kHalves:
+      layer.weight = keep(out, in / 2, pack_halves(weight));
       layer.bias = keep(1, out, {bias.begin(), bias.end()});
       break;
     case Packing::kNarrow:
@@ -67,7 +106,7 @@ DenseLayer keep_layer(Plan& plan, std::string_view name, int out, int in,
       break;
     case Packing::kNone:
       plan.fault(
-          fmt::format("layer \"{}\": expected [256, 1..8], [3..4, 256] or [256 n, 16 m], "
+          fmt::format("layer \"{}\": expected [256, 1..8], [3..4, 256] or [256 n, 64 m], "
                       "got [{}, {}]",
                       name, out, in));
       break;

@@ -10,7 +10,9 @@
 namespace flowdlo::vulkan {
 
 enum class Packing {
-  kGemm,    ///< in a multiple of 8, out of 256: [out/256][in/4][256] texels; gemm
+  kPanels,  ///< in a multiple of 16, out of 256: [out/256][in/4][256] texels; gemm
+  kRows,    ///< the same, [out, in] as it is; tile_gemm
+  kHalves,  ///< the same, [out, in] of f16; tile_gemm and matrix_gemm
   kNarrow,  ///< in at most 8, out 256: [256, 8], zeros from `in` on; narrow
   kHead,    ///< out at most 4, in 256: [4, 256], zeros from `out` on; flow_step
   kNone,    ///< no kernel takes such a layer
@@ -26,8 +28,18 @@ struct DenseLayer {
 
 inline constexpr int kPanel = 256;  ///< columns of y that lie side by side in gemm's weights
 
+[[nodiscard]] inline bool is_gemm(Packing packing) {
+  return packing == Packing::kPanels || packing == Packing::kRows || packing == Packing::kHalves;
+}
+
 /// [out/256][in/4][256] texels of four: consecutive k of one column. `weight` is [out, in].
 [[nodiscard]] std::vector<float> pack_panels(std::span<const float> weight, int out, int in);
+
+/// Two f16 in the place of each float, nearest even; `weight` has an even size.
+[[nodiscard]] std::vector<float> pack_halves(std::span<const float> weight);
+
+/// Whether every value is an f16.
+[[nodiscard]] bool are_halves(std::span<const float> weight);
 
 /// Keeps the layer in the plan's constants. A shape that no kernel takes is a fault of the plan.
 [[nodiscard]] DenseLayer keep_layer(Plan& plan, std::string_view name, int out, int in,

@@ -7,6 +7,9 @@
 #include <optional>
 #include <system_error>
 #include <thread>
+#include <vector>
+
+#include "vulkan/cooperative_matrix.hpp"
 
 namespace flowdlo::vulkan {
 namespace {
@@ -96,17 +99,31 @@ Result<void> Device::create_device() {
       .pNext = nullptr,
       .subgroupSizeControl = VK_TRUE,
       .computeFullSubgroups = facts_.full_subgroups ? VK_TRUE : VK_FALSE};
-  const char* const extension = VK_EXT_SUBGROUP_SIZE_CONTROL_EXTENSION_NAME;
-  const VkDeviceCreateInfo info{.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO,
-                                .pNext = facts_.fixes_lanes ? &control : nullptr,
-                                .flags = 0,
-                                .queueCreateInfoCount = 1,
-                                .pQueueCreateInfos = &queue,
-                                .enabledLayerCount = 0,
-                                .ppEnabledLayerNames = nullptr,
-                                .enabledExtensionCount = facts_.fixes_lanes ? 1U : 0U,
-                                .ppEnabledExtensionNames = &extension,
-                                .pEnabledFeatures = nullptr};
+  void* chain = nullptr;
+  std::vector<const char*> extensions;
+  if (facts_.fixes_lanes) {
+    chain = &control;
+    extensions.push_back(VK_EXT_SUBGROUP_SIZE_CONTROL_EXTENSION_NAME);
+  }
+  MatrixFeatures matrices;
+  matrices.matrix.cooperativeMatrix = VK_TRUE;
+  matrices.arithmetic.shaderFloat16 = VK_TRUE;
+  matrices.memory.vulkanMemoryModel = VK_TRUE;
+  if (facts_.matrix_edge > 0) {
+    chain = matrices.chain(chain);
+    extensions.insert(extensions.end(), kMatrixExtensions.begin(), kMatrixExtensions.end());
+  }
+  const VkDeviceCreateInfo info{
+      .sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO,
+      .pNext = chain,
+      .flags = 0,
+      .queueCreateInfoCount = 1,
+      .pQueueCreateInfos = &queue,
+      .enabledLayerCount = 0,
+      .ppEnabledLayerNames = nullptr,
+      .enabledExtensionCount = static_cast<std::uint32_t>(extensions.size()),
+      .ppEnabledExtensionNames = extensions.data(),
+      .pEnabledFeatures = nullptr};
   return check(instance_->api().vkCreateDevice(facts_.handle, &info, nullptr, &handle_),
                "vkCreateDevice");
 }

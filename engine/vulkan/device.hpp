@@ -6,6 +6,7 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -13,6 +14,7 @@
 
 #include "flowdlo/result.hpp"
 #include "vulkan/check.hpp"
+#include "vulkan/gemm_choice.hpp"
 #include "vulkan/instance.hpp"
 #include "vulkan/kernel.hpp"
 #include "vulkan/owned.hpp"
@@ -40,6 +42,11 @@ class Device {
   /// live as long as the device. `compiled`, where given, receives how many were new.
   [[nodiscard]] Result<std::vector<const Kernel*>> kernels(std::span<const KernelSpec> specs,
                                                            int* compiled = nullptr);
+
+  /// How dense layers run here, once known. Guarded by tuning_mutex.
+  [[nodiscard]] std::mutex& tuning_mutex() { return tuning_mutex_; }
+  [[nodiscard]] const std::optional<GemmChoice>& gemm() const { return gemm_; }
+  void remember(const GemmChoice& choice) { gemm_ = choice; }
 
   /// vulkan::check with this device's name.
   [[nodiscard]] Result<void> check(VkResult result, std::string_view operation) const {
@@ -87,6 +94,8 @@ class Device {
   Owned<VkPipelineCache> pipeline_cache_;
   std::mutex kernels_mutex_;
   std::map<std::string, Kernel> kernels_;
+  std::mutex tuning_mutex_;
+  std::optional<GemmChoice> gemm_;
 };
 
 }  // namespace flowdlo::vulkan

@@ -72,13 +72,14 @@ Result<Owned<VkPipeline>> create_pipeline(const Device& device, const KernelSpec
       .sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_REQUIRED_SUBGROUP_SIZE_CREATE_INFO_EXT,
       .pNext = nullptr,
       .requiredSubgroupSize = static_cast<std::uint32_t>(device.facts().lanes)};
+  const bool fixes_lanes = spec.uses_subgroups && device.facts().fixes_lanes;
   const VkComputePipelineCreateInfo info{
       .sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO,
       .pNext = nullptr,
       .flags = 0,
       .stage = {.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO,
-                .pNext = device.facts().fixes_lanes ? &required : nullptr,
-                .flags = device.facts().full_subgroups ? kFullSubgroups : 0,
+                .pNext = fixes_lanes ? &required : nullptr,
+                .flags = fixes_lanes && device.facts().full_subgroups ? kFullSubgroups : 0,
                 .stage = VK_SHADER_STAGE_COMPUTE_BIT,
                 .module = module->get(),
                 .pName = "main",

@@ -15,12 +15,13 @@ namespace flowdlo::vulkan {
 class Device;
 
 /// What makes one kernel differ from another. Constant i has constant_id i; constant 0 is the
-/// number of lanes, which is the workgroup's size.
+/// workgroup's size, a multiple of the lanes where the kernel uses subgroups.
 struct KernelSpec {
   ShaderCode shader;
   std::vector<std::uint32_t> constants;
   std::vector<BindingKind> bindings;
   std::uint32_t push_bytes = 0;
+  bool uses_subgroups = true;
 
   /// Shader and constants, "gemm 8 256 16 8 2 0 1": unique among kernels.
   [[nodiscard]] std::string name() const;

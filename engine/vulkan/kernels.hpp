@@ -14,7 +14,6 @@ namespace flowdlo::vulkan {
 struct GemmCall {
   struct Constants {
     int lanes;
-    int depth;
     int tile_rows;
     int tile_columns;
     int unroll;
@@ -22,12 +21,59 @@ struct GemmCall {
     int has_residual;
   };
   using Push = GemmPush;
+  static constexpr bool kUsesSubgroups = true;
   static ShaderCode shader() { return shaders::gemm(); }
 
   Texels x;
   Texels weight;
-  Scalars bias;
-  Scalars residual;
+  Texels bias;
+  Texels residual;
+  Writes y;
+  [[nodiscard]] std::array<Binding, 5> bindings() const { return {x, weight, bias, residual, y}; }
+};
+
+struct TileGemmCall {
+  struct Constants {
+    int threads;
+    int tile_rows;
+    int tile_columns;
+    int slab;
+    int depth;
+    int half_weights;
+    int activation;
+    int has_residual;
+  };
+  using Push = TileGemmPush;
+  static constexpr bool kUsesSubgroups = false;
+  static ShaderCode shader() { return shaders::tile_gemm(); }
+
+  Reads x;
+  Reads weight;
+  Reads bias;
+  Reads residual;
+  Writes y;
+  [[nodiscard]] std::array<Binding, 5> bindings() const { return {x, weight, bias, residual, y}; }
+};
+
+struct MatrixGemmCall {
+  struct Constants {
+    int threads;
+    int tile_rows;
+    int tile_columns;
+    int slab;
+    int depth;
+    int edge;
+    int activation;
+    int has_residual;
+  };
+  using Push = TileGemmPush;
+  static constexpr bool kUsesSubgroups = true;
+  static ShaderCode shader() { return shaders::matrix_gemm(); }
+
+  Reads x;
+  Reads weight;
+  Reads bias;
+  Reads residual;
   Writes y;
   [[nodiscard]] std::array<Binding, 5> bindings() const { return {x, weight, bias, residual, y}; }
 };
@@ -41,6 +87,7 @@ struct NarrowCall {
     int addends;
   };
   using Push = NarrowPush;
+  static constexpr bool kUsesSubgroups = true;
   static ShaderCode shader() { return shaders::narrow(); }
 
   Texels x;
@@ -59,6 +106,7 @@ struct LayerNormCall {
     int lanes;
   };
   using Push = NoPush;
+  static constexpr bool kUsesSubgroups = true;
   static ShaderCode shader() { return shaders::layer_norm(); }
 
   Texels x;
@@ -78,6 +126,7 @@ struct AttentionCall {
     int has_valid;
   };
   using Push = AttentionPush;
+  static constexpr bool kUsesSubgroups = true;
   static ShaderCode shader() { return shaders::attention(); }
 
   Texels query;
@@ -95,6 +144,7 @@ struct FarthestSetupCall {
     int share;
   };
   using Push = FarthestPush;
+  static constexpr bool kUsesSubgroups = true;
   static ShaderCode shader() { return shaders::farthest_setup(); }
 
   Reads cloud;
@@ -112,6 +162,7 @@ struct FarthestPointsCall {
     int cloud_is_texels;
   };
   using Push = FarthestPush;
+  static constexpr bool kUsesSubgroups = true;
   static ShaderCode shader() { return shaders::farthest_points(); }
 
   Texels cloud_texels;
@@ -132,6 +183,7 @@ struct FrameNormalizationCall {
     int lanes;
   };
   using Push = NoPush;
+  static constexpr bool kUsesSubgroups = true;
   static ShaderCode shader() { return shaders::frame_normalization(); }
 
   Texels points;
@@ -145,6 +197,7 @@ struct NormalizeCall {
     int inverse_form;
   };
   using Push = NoPush;
+  static constexpr bool kUsesSubgroups = true;
   static ShaderCode shader() { return shaders::normalize(); }
 
   Texels points;
@@ -161,6 +214,7 @@ struct MaskFeaturesCall {
     int has_depth;
   };
   using Push = MaskFeaturesPush;
+  static constexpr bool kUsesSubgroups = true;
   static ShaderCode shader() { return shaders::mask_features(); }
 
   Texels state;
@@ -183,6 +237,7 @@ struct FlowStepCall {
     int channels;
   };
   using Push = FlowStepPush;
+  static constexpr bool kUsesSubgroups = true;
   static ShaderCode shader() { return shaders::flow_step(); }
 
   Texels hidden;

@@ -1,16 +1,12 @@
 #include <fmt/format.h>
 
-#include <algorithm>
-
-#include "vulkan/gemm_tile.hpp"
-#include "vulkan/kernels.hpp"
 #include "vulkan/recorders.hpp"
 
 namespace flowdlo::vulkan {
 namespace {
 
 bool sound(Plan& plan, const ops::Linear& op, const DenseLayer& layer) {
-  const bool fits = layer.packing == Packing::kGemm && op.x.columns == layer.in &&
+  const bool fits = is_gemm(layer.packing) && op.x.columns == layer.in &&
                     op.y.columns == layer.out && op.x.rows == op.y.rows &&
                     op.x.rows % ops::kRowsPerDraw == 0;
   if (!fits) {
@@ -26,35 +22,10 @@ bool sound(Plan& plan, const ops::Linear& op, const DenseLayer& layer) {
 
 void record_linear(Plan& plan, const ops::Linear& op, const DenseLayer& layer) {
   if (!sound(plan, op, layer)) return;
-  const GemmTile tile = gemm_tile(plan.device().facts());
-  const int panel_texels = layer.in / 4 * kPanel;
-  const int most_panels = std::max(plan.most_texels() / panel_texels, 1);
-  const int row_texels = std::max(layer.in / 4, op.residual ? layer.out : 1);
-
-  for (const Window rows : Plan::windows(op.x.rows, plan.most_texels() / row_texels)) {
-    for (int panel = 0; panel < layer.out / kPanel; panel += most_panels) {
-      const int panels = std::min(most_panels, layer.out / kPanel - panel);
-      const VkDeviceSize panel_bytes = VkDeviceSize{16} * static_cast<VkDeviceSize>(panel_texels);
-      const Range bias = plan.whole(layer.bias);
-      const GemmCall call{
-          .x = {plan.rows(op.x, rows)},
-          .weight = {{layer.weight.id, panel_bytes * static_cast<VkDeviceSize>(panel),
-                      panel_bytes * static_cast<VkDeviceSize>(panels)}},
-          .bias = {bias},
-          .residual = {op.residual ? plan.rows(*op.residual, rows) : bias},
-          .y = {plan.rows(op.y, rows)}};
-      plan.dispatch(call,
-                    {.lanes = plan.lanes(),
-                     .depth = layer.in,
-                     .tile_rows = tile.rows,
-                     .tile_columns = tile.columns,
-                     .unroll = tile.unroll,
-                     .activation = static_cast<int>(op.activation),
-                     .has_residual = op.residual ? 1 : 0},
-                    {.columns = layer.out, .first_column = panel * kPanel},
-                    {static_cast<std::uint32_t>(panels * kPanel / (plan.lanes() * tile.columns)),
-                     static_cast<std::uint32_t>(rows.count / tile.rows)});
-    }
+  if (layer.packing == Packing::kPanels) {
+    record_simd_gemm(plan, op, layer);
+  } else {
+    record_tile_gemm(plan, op, layer);
   }
 }
 

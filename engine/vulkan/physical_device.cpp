@@ -6,6 +6,8 @@
 #include <optional>
 #include <string_view>
 
+#include "vulkan/cooperative_matrix.hpp"
+
 namespace flowdlo::vulkan {
 namespace {
 
@@ -112,6 +114,40 @@ void look_for_texel_buffers(const InstanceTable& api, PhysicalDevice& device) {
   }
 }
 
+bool multiplies_halves(const CooperativeMatrixProperties& matrix, std::uint32_t edge) {
+  return matrix.MSize == edge && matrix.NSize == edge && matrix.KSize == edge &&
+         matrix.AType == MatrixComponent::kFloat16 && matrix.BType == MatrixComponent::kFloat16 &&
+         matrix.CType == MatrixComponent::kFloat32 &&
+         matrix.ResultType == MatrixComponent::kFloat32 &&
+         matrix.saturatingAccumulation == VK_FALSE && matrix.scope == MatrixScope::kSubgroup;
+}
+
+/// Cooperative matrices, and what their shader needs beside them.
+void look_for_matrices(const Instance& instance, PhysicalDevice& device) {
+  const InstanceTable& api = instance.api();
+  for (const char* const extension : kMatrixExtensions) {
+    if (!has_extension(api, device.handle, extension)) return;
+  }
+  MatrixFeatures offered;
+  VkPhysicalDeviceFeatures2 features{};
+  features.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2;
+  features.pNext = offered.chain();
+  api.vkGetPhysicalDeviceFeatures2(device.handle, &features);
+  const auto list = reinterpret_cast<GetCooperativeMatrixProperties>(instance.loader().find(
+      instance.handle(), "vkGetPhysicalDeviceCooperativeMatrixPropertiesKHR"));
+  if (!offered.complete() || !device.full_subgroups || list == nullptr) return;
+  std::uint32_t count = 0;
+  if (list(device.handle, &count, nullptr) != VK_SUCCESS) return;
+  std::vector<CooperativeMatrixProperties> matrices(count);
+  if (list(device.handle, &count, matrices.data()) < VK_SUCCESS) return;
+  for (const int edge : {8, 16}) {
+    const auto has = [&](const auto& matrix) {
+      return multiplies_halves(matrix, static_cast<std::uint32_t>(edge));
+    };
+    if (std::any_of(matrices.begin(), matrices.end(), has)) device.matrix_edge = edge;
+  }
+}
+
 std::string hexadecimal(const std::uint8_t (&bytes)[VK_UUID_SIZE]) {
   std::string text;
   for (const std::uint8_t byte : bytes) text += fmt::format("{:02x}", byte);
@@ -151,6 +187,7 @@ PhysicalDevice describe(const Instance& instance, VkPhysicalDevice handle) {
   api.vkGetPhysicalDeviceProperties2(handle, &properties);
 
   device.report.uuid = hexadecimal(id.deviceUUID);
+  device.driver_uuid = hexadecimal(id.driverUUID);
   if (names_driver) {
     device.report.driver = fmt::format("{} {}", driver.driverName, driver.driverInfo);
     if (driver.driverID == VK_DRIVER_ID_MESA_LLVMPIPE) device.report.kind = DeviceKind::kCpu;
@@ -159,6 +196,7 @@ PhysicalDevice describe(const Instance& instance, VkPhysicalDevice handle) {
   find_queue(api, device);
   choose_lanes(api, device, subgroup);
   look_for_texel_buffers(api, device);
+  look_for_matrices(instance, device);
   return device;
 }
 

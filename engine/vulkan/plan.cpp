@@ -6,10 +6,10 @@
 namespace flowdlo::vulkan {
 
 ops::Tensor Plan::tensor(Home home, std::string_view name, int rows, int columns,
-                         std::span<const float> content) {
+                         std::vector<float> content) {
   const VkDeviceSize bytes =
       VkDeviceSize{4} * static_cast<VkDeviceSize>(rows) * static_cast<VkDeviceSize>(columns);
-  return {resources_.add(home, bytes, name, {content.begin(), content.end()}), rows, columns};
+  return {resources_.add(home, bytes, name, std::move(content)), rows, columns};
 }
 
 Range Plan::rows(const ops::Tensor& tensor, Window window) const {
@@ -42,11 +42,13 @@ std::vector<Window> Plan::windows(int rows, int most) {
   return pieces;
 }
 
-void Plan::add(ShaderCode shader, std::vector<std::uint32_t> constants, Dispatch step) {
+void Plan::add(ShaderCode shader, bool uses_subgroups, std::vector<std::uint32_t> constants,
+               Dispatch step) {
   KernelSpec spec{.shader = shader,
                   .constants = std::move(constants),
                   .bindings = {},
-                  .push_bytes = static_cast<std::uint32_t>(step.push.size())};
+                  .push_bytes = static_cast<std::uint32_t>(step.push.size()),
+                  .uses_subgroups = uses_subgroups};
   for (const Binding& binding : step.bindings) spec.bindings.push_back(binding.kind);
   const auto [entry, is_new] = kernel_index_.try_emplace(spec.name(), kernels_.size());
   step.kernel = entry->second;

@@ -16,6 +16,7 @@
 
 #include "ops/program.hpp"
 #include "vulkan/device.hpp"
+#include "vulkan/gemm_choice.hpp"
 #include "vulkan/resources.hpp"
 
 namespace flowdlo::vulkan {
@@ -56,8 +57,11 @@ class Plan {
  public:
   explicit Plan(const Device& device) : device_(&device) {}
 
+  /// How dense layers run; before the first of them.
+  void choose(const GemmChoice& gemm) { gemm_ = gemm; }
+
   [[nodiscard]] ops::Tensor tensor(Home home, std::string_view name, int rows, int columns,
-                                   std::span<const float> content = {});
+                                   std::vector<float> content = {});
   [[nodiscard]] Range whole(const ops::Tensor& tensor) const { return resources_.whole(tensor.id); }
   [[nodiscard]] Range rows(const ops::Tensor& tensor, Window window) const;
 
@@ -86,7 +90,7 @@ class Plan {
     static_assert(sizeof(constants) % sizeof(std::uint32_t) == 0);
     std::vector<std::uint32_t> words(sizeof(constants) / sizeof(std::uint32_t));
     std::memcpy(words.data(), &constants, sizeof(constants));
-    add(Call::shader(), std::move(words), std::move(step));
+    add(Call::shader(), Call::kUsesSubgroups, std::move(words), std::move(step));
   }
   void copy(const Range& from, const Range& to) { steps_.emplace_back(CopyBytes{from, to}); }
   void stage(std::string_view name) { steps_.emplace_back(StageMark{std::string(name)}); }
@@ -94,6 +98,8 @@ class Plan {
   void fault(std::string text) { faults_.push_back(std::move(text)); }
 
   [[nodiscard]] const Device& device() const { return *device_; }
+  /// What runs the dense layers.
+  [[nodiscard]] const GemmChoice& gemm() const { return gemm_; }
   [[nodiscard]] int lanes() const { return device_->facts().lanes; }
   [[nodiscard]] Resources& resources() { return resources_; }
   [[nodiscard]] const Resources& resources() const { return resources_; }
@@ -102,9 +108,11 @@ class Plan {
   [[nodiscard]] const std::vector<std::string>& faults() const { return faults_; }
 
  private:
-  void add(ShaderCode shader, std::vector<std::uint32_t> constants, Dispatch step);
+  void add(ShaderCode shader, bool uses_subgroups, std::vector<std::uint32_t> constants,
+           Dispatch step);
 
   const Device* device_;
+  GemmChoice gemm_;
   Resources resources_;
   std::vector<KernelSpec> kernels_;
   std::map<std::string, std::size_t> kernel_index_;

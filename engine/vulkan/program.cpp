@@ -4,8 +4,10 @@
 #include <cassert>
 #include <chrono>
 #include <cstring>
+#include <utility>
 
 #include "vulkan/pipeline_cache.hpp"
+#include "vulkan/tuning.hpp"
 
 namespace flowdlo::vulkan {
 namespace {
@@ -25,8 +27,19 @@ Program::~Program() {
   }
 }
 
+void Program::choose_gemm_once() {
+  if (std::exchange(chosen_, true)) return;
+  const auto choice = choose_gemm(work_->device, options_);
+  if (choice) {
+    work_->plan.choose(*choice);
+  } else {
+    lost_ = choice.error();
+  }
+}
+
 ops::LinearLayer Program::layer(std::string_view name, int out, int in,
                                 std::span<const float> weight, std::span<const float> bias) {
+  choose_gemm_once();
   layers_.push_back(keep_layer(work_->plan, name, out, in, weight, bias));
   return {static_cast<std::uint32_t>(layers_.size() - 1), in, out};
 }
@@ -151,6 +164,7 @@ Result<void> Program::warm_up() {
 
 Result<void> Program::build() {
   assert(!built_);
+  if (lost_) return *lost_;
   if (!work_->plan.faults().empty()) {
     std::string text;
     for (const std::string& fault : work_->plan.faults()) {

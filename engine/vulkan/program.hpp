@@ -36,7 +36,7 @@ class Program final : public ops::Program {
   }
   ops::Tensor constant(std::string_view name, int rows, int columns,
                        std::span<const float> values) override {
-    return work_->plan.tensor(Home::kDevice, name, rows, columns, values);
+    return work_->plan.tensor(Home::kDevice, name, rows, columns, {values.begin(), values.end()});
   }
   ops::LinearLayer layer(std::string_view name, int out, int in, std::span<const float> weight,
                          std::span<const float> bias) override;
@@ -74,6 +74,8 @@ class Program final : public ops::Program {
     VkCommandBuffer commands = VK_NULL_HANDLE;
   };
 
+  /// How dense layers run, before the first is declared.
+  void choose_gemm_once();
   [[nodiscard]] Result<void> compile();
   [[nodiscard]] Result<void> record_commands();
   [[nodiscard]] Result<void> warm_up();
@@ -85,8 +87,9 @@ class Program final : public ops::Program {
   std::vector<DenseLayer> layers_;
   std::vector<ops::Tensor> params_;
   std::vector<std::pair<ops::Tensor, std::vector<float>>> early_writes_;  // before build()
+  bool chosen_ = false;
   bool built_ = false;
-  std::optional<Error> lost_;  // of the run that failed; every later run fails the same way
+  std::optional<Error> lost_;  // what failed; build() or every later run fails the same way
   double host_ms_ = 0;
 };
 

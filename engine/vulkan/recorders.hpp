@@ -9,6 +9,8 @@
 namespace flowdlo::vulkan {
 
 void record_linear(Plan& plan, const ops::Linear& op, const DenseLayer& layer);
+void record_simd_gemm(Plan& plan, const ops::Linear& op, const DenseLayer& layer);
+void record_tile_gemm(Plan& plan, const ops::Linear& op, const DenseLayer& layer);
 void record_narrow(Plan& plan, const ops::Narrow& op, const DenseLayer& layer);
 void record_layer_norm(Plan& plan, const ops::LayerNorm& op);
 void record_attention(Plan& plan, const ops::Attention& op);

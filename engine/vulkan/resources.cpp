@@ -55,17 +55,38 @@ Result<void> Resources::allocate(const Device& device) {
       Buffer::create(device, sizes[1], kUsage,
                      {kVisible | kCached | kCoherent, kVisible | kCached, kVisible}, "outputs");
   if (!outputs) return outputs.error();
-  auto own = Buffer::create(device, sizes[2], kUsage, {kLocal, 0}, "tensors");
+  const bool shares_memory = device.facts().report.kind == DeviceKind::kCpu;
+  auto own = shares_memory ? Buffer::create(device, sizes[2], kUsage,
+                                            {kVisible | kCoherent, kVisible}, "tensors")
+                           : Buffer::create(device, sizes[2], kUsage, {kLocal, 0}, "tensors");
   if (!own) return own.error();
   buffers_ = {*std::move(inputs), *std::move(outputs), *std::move(own)};
   std::memset(buffers_[0].mapped(), 0, buffers_[0].size());
   std::memset(buffers_[1].mapped(), 0, buffers_[1].size());
-  const auto flushed = buffers_[0].flush(device);
-  if (!flushed) return flushed.error();
-  return buffers_[1].flush(device);
+  if (buffers_[2].mapped() != nullptr) fill_own();
+  for (const Buffer& buffer : buffers_) {
+    const auto flushed = buffer.flush(device);
+    if (!flushed) return flushed.error();
+  }
+  return {};
+}
+
+void Resources::fill_own() {
+  std::byte* const memory = buffers_[index_of(Home::kDevice)].mapped();
+  VkDeviceSize filled = 0;
+  const auto zeros_to = [&](VkDeviceSize end) { std::memset(memory + filled, 0, end - filled); };
+  for (Item& item : items_) {
+    if (item.content.empty()) continue;
+    zeros_to(item.offset);
+    std::memcpy(memory + item.offset, item.content.data(), item.bytes);
+    filled = item.offset + item.bytes;
+    item.content = {};
+  }
+  zeros_to(buffers_[index_of(Home::kDevice)].size());
 }
 
 Result<Buffer> Resources::record_upload(const Device& device, VkCommandBuffer commands) {
+  if (buffers_[index_of(Home::kDevice)].mapped() != nullptr) return Buffer{};
   VkDeviceSize bytes = 4;
   for (const Item& item : items_) bytes += item.content.size() * sizeof(float);
   auto staging = Buffer::create(device, bytes, VK_BUFFER_USAGE_TRANSFER_SRC_BIT,

@@ -26,8 +26,8 @@ class Resources {
   std::uint32_t add(Home home, VkDeviceSize bytes, std::string_view name,
                     std::vector<float> content = {});
 
-  /// Lays everything out and allocates. The host's memory is zero; the device's is filled by the
-  /// commands of record_upload.
+  /// Lays everything out and allocates. The host's memory is zero, and so is a CPU driver's, which
+  /// gets its constants at once; other devices are filled by the commands of record_upload.
   [[nodiscard]] Result<void> allocate(const Device& device);
 
   /// Zeros, then the constants, into the device's buffer. What a dispatch needs is visible to it.
@@ -60,6 +60,7 @@ class Resources {
   };
 
   [[nodiscard]] std::array<VkDeviceSize, 3> lay_out();
+  void fill_own();
 
   std::vector<Item> items_;
   std::array<Buffer, 3> buffers_;  // by Home

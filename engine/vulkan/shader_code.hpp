@@ -22,8 +22,13 @@ namespace shaders {
 [[nodiscard]] ShaderCode gemm();
 [[nodiscard]] ShaderCode layer_norm();
 [[nodiscard]] ShaderCode mask_features();
+[[nodiscard]] ShaderCode matrix_gemm();  ///< no words where the GLSL compiler at hand was too old
 [[nodiscard]] ShaderCode narrow();
 [[nodiscard]] ShaderCode normalize();
+[[nodiscard]] ShaderCode tile_gemm();
+
+/// Of the words of all of them.
+[[nodiscard]] std::uint64_t hash();
 
 }  // namespace shaders
 }  // namespace flowdlo::vulkan

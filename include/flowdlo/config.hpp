@@ -14,6 +14,14 @@ enum class PriorChoice {
   kRefined,    ///< on the rope's centerline, uniform in arclength, from every measured pixel
 };
 
+/// Who decides between predictions and priors.
+enum class GateChoice {
+  kOfWeights,   ///< kCalibrated for a trained model with a refined prior and a sigma of its own, as
+                ///< the one that comes with FlowDLO; otherwise kThesis
+  kThesis,      ///< Eq. (3.30)-(3.33): the plausible draw of highest mask agreement, or the prior
+  kCalibrated,  ///< a score fitted on synthetic scenes, over draws, prior and alternatives
+};
+
 /// How much of the model runs a frame.
 enum class Quality {
   kFull,  ///< Config::euler_steps and Config::draws
@@ -34,6 +42,7 @@ struct Config {
   int draws = 4;                     ///< Gaussian sources a frame, Sec. 4.1.3; 1..64
   std::uint64_t seed = 0;            ///< of the sources x_0; same seed and device: the same bits
   PriorChoice prior = PriorChoice::kOfWeights;
+  GateChoice gate = GateChoice::kOfWeights;
   double rope_length_m = 0;  ///< of the whole rope, where known; 0: unknown. Helps at crossings.
   int threads = 0;           ///< of the CPU back end; 0: one for each core
 

@@ -4,22 +4,14 @@
 
 #include <cmath>
 #include <cstddef>
-#include <span>
 #include <utility>
 #include <vector>
 
+#include "eval/draws.hpp"
 #include "flowdlo/frame_folder.hpp"
 
 namespace flowdlo::eval {
 namespace {
-
-Centerline centerline(std::span<const float> values) {
-  Centerline nodes{};
-  for (std::size_t i = 0; i < kNodes; ++i) {
-    nodes[i] = {values[3 * i], values[3 * i + 1], values[3 * i + 2]};
-  }
-  return nodes;
-}
 
 Config prior_config(const Config& config, PriorChoice prior) {
   Config quick = config;
@@ -34,7 +26,8 @@ void add_prior(Estimator& estimator, const Frame& frame, const Centerline& truth
                const char* method, Trial& trial) {
   Tensors tensors;
   if (!estimator.estimate(frame, tensors)) return;
-  trial.methods[method] = mean_of({score(centerline(tensors.prior), truth)});
+  trial.methods[method] = mean_of({score(centerline_of(tensors.prior), truth)});
+  trial.curves[method] = {kept(centerline_of(tensors.prior))};
 }
 
 /// `truth` turned to the estimate's direction.
@@ -56,48 +49,57 @@ void add_scores(const Estimate& estimate, const Tensors& tensors, const Centerli
   trial.methods["estimate"] = mean_of({returned});
   trial.truth = turned(truth, returned);
   trial.sigma = coverage_of(estimate, trial.truth);
-  std::vector<Score> draws;
-  Score best = score(centerline(tensors.prior), truth);
-  const std::span<const float> predictions(tensors.prediction);
-  for (int d = 0; d < tensors.draws; ++d) {
-    const std::size_t size = 3 * kNodes;
-    draws.push_back(
-        score(centerline(predictions.subspan(static_cast<std::size_t>(d) * size, size)), truth));
-    if (draws.back().index_m < best.index_m) best = draws.back();
-  }
-  trial.methods["model"] = mean_of(draws);
-  trial.methods["oracle"] = mean_of({best});
+  add_draw_scores(estimate, tensors, truth, "", trial);
 }
 
 }  // namespace
 
-Result<Evaluator> Evaluator::create(const Config& config) {
+Result<Evaluator> Evaluator::create(const Config& config, const ContenderConfig& contenders) {
   auto estimator = Estimator::create(config);
   if (!estimator) return estimator.error();
   auto thesis = Estimator::create(prior_config(config, PriorChoice::kThesis));
   if (!thesis) return thesis.error();
   auto refined = Estimator::create(prior_config(config, PriorChoice::kRefined));
   if (!refined) return refined.error();
-  return Evaluator(*std::move(estimator), *std::move(thesis), *std::move(refined));
+  auto others = Contenders::create(config, contenders);
+  if (!others) return others.error();
+  return Evaluator(*std::move(estimator), *std::move(thesis), *std::move(refined),
+                   *std::move(others));
 }
 
 Trial Evaluator::run(const std::filesystem::path& path, const std::string& name) {
+  return run(load_frame_folder(path), read_scene_info(path), path, name);
+}
+
+Trial Evaluator::run(const Result<FrameFolder>& folder, const Result<SceneInfo>& scene,
+                     const std::filesystem::path& path, const std::string& name) {
   Trial trial;
   trial.name = name;
-  const auto folder = load_frame_folder(path);
-  auto scene = read_scene_info(path);
-  if (scene) trial.scene = *std::move(scene);
+  trial.folder = path;
+  trial.data_set = std::filesystem::absolute(path).lexically_normal().parent_path().filename();
+  if (scene) trial.scene = *scene;
   if (!folder || !scene) {
     trial.failure = folder ? scene.error().message : folder.error().message;
     return trial;
   }
-  Tensors tensors;
-  const auto estimate = estimator_.estimate(folder->frame(), tensors);
   trial.with_truth = folder->truth.has_value();
+  if (folder->truth) trial.truth = canonical(*folder->truth);
+  run_own(*folder, trial);
+  contenders_.run(*folder, trial);
+  return trial;
+}
+
+void Evaluator::run_own(const FrameFolder& folder, Trial& trial) {
+  Tensors tensors;
+  const auto estimate = estimator_.estimate(folder.frame(), tensors);
   if (!estimate) {
     trial.failure = estimate.error().message;
-    return trial;
+    trial.accounts["estimate"].failure = name_of(estimate.error().code);
+    return;
   }
+  Account& account = trial.accounts["estimate"];
+  account.output = true;
+  account.mask_agreement = static_cast<double>(estimate->mask_agreement);
   trial.nodes = estimate->nodes;
   trial.source = estimate->source;
   trial.draws = static_cast<int>(estimate->draws.size());
@@ -105,14 +107,18 @@ Trial Evaluator::run(const std::filesystem::path& path, const std::string& name)
   trial.confidence = static_cast<double>(estimate->confidence);
   trial.mask_agreement = static_cast<double>(estimate->mask_agreement);
   trial.total_ms = estimate->timings.total_ms;
-  if (!folder->truth) return trial;
-  add_scores(*estimate, tensors, *folder->truth, trial);
-  add_prior(thesis_, folder->frame(), *folder->truth, "prior", trial);
-  add_prior(refined_, folder->frame(), *folder->truth, "refined", trial);
-  return trial;
+  add_draws(*estimate, tensors, "", trial);
+  if (!folder.truth) return;
+  add_scores(*estimate, tensors, *folder.truth, trial);
+  add_prior(thesis_, folder.frame(), *folder.truth, "prior", trial);
+  add_prior(refined_, folder.frame(), *folder.truth, "refined", trial);
 }
 
-Evaluator::Evaluator(Estimator estimator, Estimator thesis, Estimator refined)
-    : estimator_(std::move(estimator)), thesis_(std::move(thesis)), refined_(std::move(refined)) {}
+Evaluator::Evaluator(Estimator estimator, Estimator thesis, Estimator refined,
+                     Contenders contenders)
+    : estimator_(std::move(estimator)),
+      thesis_(std::move(thesis)),
+      refined_(std::move(refined)),
+      contenders_(std::move(contenders)) {}
 
 }  // namespace flowdlo::eval

@@ -69,12 +69,14 @@ Batch make_batch(std::span<const Record> records, const SamplePlan& plan, const 
   views.reserve(static_cast<std::size_t>(size));
   Tensor source = torch::empty({size, kNodes, 4});
   Tensor time = torch::empty({size});
+  Tensor to_prior = torch::empty({size});
   for (int slot = 0; slot < size; ++slot) {
     const Choice choice = plan.choose(step, slot, size);
     views.emplace_back(records[choice.record], choice.prior, choice.turn, view);
     plan.source(choice, {source.data_ptr<float>() + static_cast<std::ptrdiff_t>(slot) * kNodes * 4,
                          static_cast<std::size_t>(kNodes) * 4});
     time.data_ptr<float>()[slot] = choice.t;
+    to_prior.data_ptr<float>()[slot] = choice.on_prior_path ? 1.0F : 0.0F;
   }
 
   Batch batch;
@@ -83,7 +85,9 @@ Batch make_batch(std::span<const Record> records, const SamplePlan& plan, const 
   batch.target.source = source.narrow(2, 0, 3).contiguous();
   batch.target.truth = stacked(views, &RecordView::truth, 3);
   const Tensor t = time.view({-1, 1, 1});
-  batch.input.state = (1 - t) * batch.target.source + t * batch.target.truth;  // Eq. (2.4)
+  const Tensor end =
+      torch::where(to_prior.view({-1, 1, 1}) > 0, batch.input.prior, batch.target.truth);
+  batch.input.state = (1 - t) * batch.target.source + t * end;  // Eq. (2.4)
   batch.input.features = features_of(views, batch.input.state, local_channels);
   batch.target.state = batch.input.state;
   batch.target.time = time;

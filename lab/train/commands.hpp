@@ -8,7 +8,7 @@ namespace flowdlo::train {
 void add_records_command(CLI::App& app, int& exit_code);
 /// `argc` and `argv` become the training command in the weights' metadata.
 void add_train_command(CLI::App& app, int argc, char** argv, int& exit_code);
-void add_resume_command(CLI::App& app, int& exit_code);
+void add_resume_command(CLI::App& app, int argc, char** argv, int& exit_code);
 void add_export_command(CLI::App& app, int& exit_code);
 void add_golden_command(CLI::App& app, int& exit_code);
 void add_curves_command(CLI::App& app, int& exit_code);

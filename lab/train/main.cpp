@@ -17,7 +17,7 @@ int main(int argc, char** argv) {
   int exit_code = 0;
   add_records_command(app, exit_code);
   add_train_command(app, argc, argv, exit_code);
-  add_resume_command(app, exit_code);
+  add_resume_command(app, argc, argv, exit_code);
   add_export_command(app, exit_code);
   add_golden_command(app, exit_code);
   add_curves_command(app, exit_code);

@@ -82,10 +82,12 @@ void visit(Visitor& visitor, Recipe& recipe) {
     auto& sampling = recipe.sampling;
     v.real("intersection_weight", sampling.intersection_weight, 1e-3, 1e3);
     v.real("hard_weight", sampling.hard_weight, 1e-3, 1e3);
+    v.real("wrong_weight", sampling.wrong_weight, 1e-3, 1e3);
     v.real("alternative_share", sampling.alternative_share, 0, 1);
     v.real("rotation_share", sampling.rotation_share, 0, 1);
     v.real("mirror_share", sampling.mirror_share, 0, 1);
     v.real("time_power", sampling.time_power, 0.1, 10);
+    v.real("prior_path_share", sampling.prior_path_share, 0, 1);
     v.choice("truth_direction", sampling.truth_direction, truth_directions());
   });
   visitor.group("objective", [&](Visitor& v) {

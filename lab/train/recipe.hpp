@@ -18,10 +18,14 @@ enum class TruthDirection { kCanonical, kPrior };
 struct SamplingConfig {
   double intersection_weight = 2;  ///< Sec. 4.1.3
   double hard_weight = 1;          ///< of scenes where geometry has to guess
+  double wrong_weight = 1;         ///< of scenes whose best prior is wrong: 2 cm off and more
   double alternative_share = 0;    ///< samples conditioned on a runner-up's prior
   double rotation_share = 0.75;    ///< Sec. 4.1.3
   double mirror_share = 0;
   double time_power = 1;  ///< t = u^time_power, u uniform: above 1, more of the early flow
+  /// Samples whose state lies between source and prior, not source and truth: where sampling passes
+  /// while the model follows a wrong prior, and where nothing but the evidence can tell it so.
+  double prior_path_share = 0;
   TruthDirection truth_direction = TruthDirection::kCanonical;
 };
 

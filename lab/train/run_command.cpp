@@ -151,6 +151,12 @@ int resume_run(const Arguments& arguments) {
   if (!device) return 2;
   auto state = load_checkpoint(arguments.folder / "checkpoint.pt", *device);
   if (!state) return failed(state.error());
+  if (!arguments.recipe.empty()) {
+    auto recipe = read_recipe(arguments.recipe);
+    if (!recipe) return failed(recipe.error(), 2);
+    if (auto taken = take_recipe(*state, *recipe); !taken) return failed(taken.error(), 2);
+    state->command += fmt::format(", from step {}: {}", state->step, arguments.command);
+  }
   if (arguments.steps > 0) state->recipe.optimizer.steps = arguments.steps;
   if (state->device != words) state->device += ", then " + words;
   return run(*state, arguments, *device);
@@ -193,9 +199,13 @@ void add_train_command(CLI::App& app, int argc, char** argv, int& exit_code) {
   command->callback([arguments, &exit_code] { exit_code = start_run(*arguments); });
 }
 
-void add_resume_command(CLI::App& app, int& exit_code) {
+void add_resume_command(CLI::App& app, int argc, char** argv, int& exit_code) {
   auto arguments = std::make_shared<Arguments>();
+  arguments->command = joined(argc, argv);
   auto* command = app.add_subcommand("resume", "Go on from the checkpoint in --out, exactly");
+  command->add_option("--recipe", arguments->recipe,
+                      "Go on with this one: another sampling, objective or schedule of the same "
+                      "model");
   add_common(*command, *arguments);
   command->callback([arguments, &exit_code] { exit_code = resume_run(*arguments); });
 }

@@ -12,11 +12,21 @@ namespace {
 // Streams of the recipe's seed, apart from one another and from scenes.
 constexpr std::uint64_t kChoiceStream = 0x5A11;
 constexpr std::uint64_t kSourceStream = 0x5A12'0000'0000'0000ULL;
+constexpr double kWrong_m = 0.02;
+
+// Of the best prior, in the direction that fits the truth better.
+double prior_error_m(const Record& record) {
+  Centerline reversed = record.truth;
+  std::reverse(reversed.begin(), reversed.end());
+  const Centerline& prior = record.priors.front().nodes;
+  return std::min(index_error(prior, record.truth), index_error(prior, reversed));
+}
 
 double weight_of(const Record& record, const SamplingConfig& config) {
   double weight = 1;
   if (record.intersection) weight *= config.intersection_weight;  // Sec. 4.1.3
   if (record.difficulty == Difficulty::kHard) weight *= config.hard_weight;
+  if (config.wrong_weight != 1 && prior_error_m(record) > kWrong_m) weight *= config.wrong_weight;
   return weight;
 }
 
@@ -53,6 +63,7 @@ Choice SamplePlan::choose(std::uint64_t step, int slot, int batch) const {
     choice.turn.angle_rad = 2 * std::numbers::pi * random::uniform(second[1]);
   }
   choice.turn.mirrored = random::uniform(second[2]) < config_.mirror_share;
+  choice.on_prior_path = random::uniform(second[3]) < config_.prior_path_share;
   return choice;
 }
 

@@ -15,8 +15,9 @@ struct Choice {
   std::size_t record = 0;
   std::size_t prior = 0;
   Turn turn;
-  float t = 0;               ///< in [0, 1)
-  std::uint64_t source = 0;  ///< stream of the Gaussian source x_0
+  float t = 0;                 ///< in [0, 1)
+  bool on_prior_path = false;  ///< the state lies on the way to the prior, not to the truth
+  std::uint64_t source = 0;    ///< stream of the Gaussian source x_0
 };
 
 class SamplePlan {

@@ -183,4 +183,20 @@ Result<TrainingState> load_checkpoint(const std::filesystem::path& file, torch::
   }
 }
 
+Result<void> take_recipe(TrainingState& state, const Recipe& recipe) {
+  std::string faults;
+  if (recipe.variant != state.recipe.variant) {
+    faults += " another variant: expected the checkpoint's;";
+  }
+  if ((recipe.optimizer.ema_decay > 0) != static_cast<bool>(state.average)) {
+    faults += " optimizer.ema_decay: expected averaging on or off as in the checkpoint;";
+  }
+  if (!faults.empty()) {
+    return Error{ErrorCode::kBadInput,
+                 "recipe " + recipe.name + ":" + faults + " start a new run for another model"};
+  }
+  state.recipe = recipe;
+  return {};
+}
+
 }  // namespace flowdlo::train

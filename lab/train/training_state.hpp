@@ -47,4 +47,9 @@ struct TrainingState {
 [[nodiscard]] Result<TrainingState> load_checkpoint(const std::filesystem::path& file,
                                                     torch::Device device);
 
+/// Goes on with `recipe`: sampling, objective, schedule, rates and steps are the new ones; the
+/// model, what the optimiser has gathered and its decays stay. Fails with kBadInput when `recipe`
+/// is of another model.
+[[nodiscard]] Result<void> take_recipe(TrainingState& state, const Recipe& recipe);
+
 }  // namespace flowdlo::train

@@ -29,6 +29,17 @@ TEST(AssignDraws, WithoutARunnerUpThereIsNothingToAssign) {
   EXPECT_EQ(estimator::assign_draws(1, 0.0F, 2), (Draws{0, 0}));
 }
 
+TEST(SpreadDraws, EveryHypothesisGetsADrawHoweverClearTheWinner) {
+  EXPECT_EQ(estimator::spread_draws(3, 4), (Draws{0, 0, 2, 1}));
+  EXPECT_EQ(estimator::spread_draws(4, 4), (Draws{0, 3, 2, 1}));
+}
+
+TEST(SpreadDraws, TheBestHypothesesComeFirstWhereDrawsAreShort) {
+  EXPECT_EQ(estimator::spread_draws(9, 3), (Draws{0, 2, 1}));
+  EXPECT_EQ(estimator::spread_draws(9, 1), (Draws{0}));
+  EXPECT_EQ(estimator::spread_draws(1, 2), (Draws{0, 0}));
+}
+
 class LiftAll : public ::testing::Test {
  protected:
   /// The wave's own path with `score`, and the first `share` of it only.

@@ -17,9 +17,10 @@ constexpr double kPi = std::numbers::pi;
 
 // A hairpin whose strands touch from x = 220 to x = 440; its bend, on the right, is open. One end
 // lies at x = 80. The other one stops beside it at x = 220, or parts from it to the upper left.
-Curve hairpin(int width_px, bool parts) {
-  const int upper = 240 - width_px / 2;
-  const int lower = upper + width_px;
+// `apart_px` less than the width: seen aslant, one hides part of the other.
+Curve hairpin(int width_px, bool parts, int apart_px) {
+  const int upper = 240 - apart_px / 2;
+  const int lower = upper + apart_px;
   const double radius = 4.0 * width_px;
   Curve curve;
   if (parts) {
@@ -31,7 +32,7 @@ Curve hairpin(int width_px, bool parts) {
   curve.emplace_back(440, upper);
   const double middle = 0.5 * (upper + lower);
   for (double t = 0; t <= 1; t += 0.02) {
-    const double open = 0.5 * width_px + (radius - 0.5 * width_px) * t * t * (3 - 2 * t);
+    const double open = 0.5 * apart_px + (radius - 0.5 * apart_px) * t * t * (3 - 2 * t);
     curve.emplace_back(static_cast<int>(440 + 80 * t), static_cast<int>(middle - open));
   }
   for (double angle = -0.5 * kPi; angle <= 0.5 * kPi; angle += 0.05) {
@@ -39,7 +40,7 @@ Curve hairpin(int width_px, bool parts) {
                        static_cast<int>(middle + radius * std::sin(angle)));
   }
   for (double t = 1; t >= 0; t -= 0.02) {
-    const double open = 0.5 * width_px + (radius - 0.5 * width_px) * t * t * (3 - 2 * t);
+    const double open = 0.5 * apart_px + (radius - 0.5 * apart_px) * t * t * (3 - 2 * t);
     curve.emplace_back(static_cast<int>(440 + 80 * t), static_cast<int>(middle + open));
   }
   curve.emplace_back(440, lower);
@@ -84,7 +85,7 @@ class Hairpin : public testing::TestWithParam<int> {};
 
 TEST_P(Hairpin, WhoseEndStopsBesideTheOtherStrandIsWalkedOnBoth) {
   const int width_px = GetParam();
-  const Curve curve = hairpin(width_px, false);
+  const Curve curve = hairpin(width_px, false, width_px);
   const Canvas canvas = Canvas().stroke(curve, width_px);
 
   const auto traced = path::trace(canvas.frame());
@@ -96,13 +97,43 @@ TEST_P(Hairpin, WhoseEndStopsBesideTheOtherStrandIsWalkedOnBoth) {
 
 TEST_P(Hairpin, WhoseEndsPartIsWalkedOnBoth) {
   const int width_px = GetParam();
-  const Curve curve = hairpin(width_px, true);
+  const Curve curve = hairpin(width_px, true, width_px);
   const Canvas canvas = Canvas().stroke(curve, width_px);
 
   const auto traced = path::trace(canvas.frame());
 
   ASSERT_TRUE(traced);
   EXPECT_LT(frechet(traced->ranked.front(), dense(curve)), 2.0F + static_cast<float>(width_px));
+}
+
+TEST_P(Hairpin, SeenAslantWhoseEndsPartIsWalkedOnBoth) {
+  const int width_px = GetParam();
+  const Curve curve = hairpin(width_px, true, (width_px + 1) / 2);
+  const Canvas canvas = Canvas().stroke(curve, width_px);
+
+  const auto traced = path::trace(canvas.frame());
+
+  ASSERT_TRUE(traced);
+  EXPECT_LT(frechet(traced->ranked.front(), dense(curve)), 3.0F + static_cast<float>(width_px));
+}
+
+TEST(Doubles, SeenAslantEndAtTheStepWhereAStrandStops) {
+  for (const int width_px : {9, 11, 15}) {
+    const Curve curve = hairpin(width_px, false, (width_px + 1) / 2);
+    const auto traced = path::trace(Canvas().stroke(curve, width_px).frame());
+    ASSERT_TRUE(traced);
+    EXPECT_LT(frechet(traced->ranked.front(), dense(curve)), 3.0F + static_cast<float>(width_px))
+        << width_px;
+  }
+}
+
+TEST(Doubles, AreNotFoundInTheStemOfALoopOfOneStrand) {
+  const Canvas canvas = Canvas()
+                            .stroke({{60, 240}, {300, 240}}, 9)
+                            .stroke(ring(80), 9)
+                            .stroke({{60, 240}, {20, 200}}, 9)
+                            .stroke({{60, 240}, {20, 280}}, 9);
+  EXPECT_EQ(doubles_in(canvas), 0U);
 }
 
 INSTANTIATE_TEST_SUITE_P(Widths, Hairpin, testing::Values(3, 5, 7, 11));

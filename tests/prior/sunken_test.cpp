@@ -51,6 +51,31 @@ TEST(Sunken, AStretchAtTheWallsDepthIsDroppedAndTheRestKept) {
   EXPECT_GT(readings_between(strip, 410, 510), 500);
 }
 
+TEST(Sunken, AStretchIsDroppedWholeThoughFlyingPixelsPartIt) {
+  DrawnRope rope = draw_rope(straight_line());
+  repaint(rope, 250, 400, 1.86F);
+  repaint(rope, 300, 306, 1.2F);
+  repaint(rope, 340, 346, 1.6F);
+  const Strip strip = dropped(rope);
+  EXPECT_EQ(readings_between(strip, 256, 394), 0);
+  EXPECT_GT(readings_between(strip, 130, 240), 500);
+  EXPECT_GT(readings_between(strip, 410, 510), 500);
+}
+
+TEST(Sunken, AStretchBehindAHoleOrBeyondTheWallIsDropped) {
+  DrawnRope rope = draw_rope(straight_line());
+  repaint(rope, 200, 249, 0);
+  repaint(rope, 250, 400, kWall_m + 0.02F);
+  EXPECT_EQ(readings_between(dropped(rope), 256, 394), 0);
+}
+
+TEST(Sunken, ARopeThatComesNearerAllTheWayIsKept) {
+  DrawnRope rope = draw_rope(straight_line());
+  for (int u = 0; u < 640; ++u) repaint(rope, u, u, 1.9F - 0.0025F * static_cast<float>(u));
+  EXPECT_GT(readings_between(dropped(rope), 130, 240), 500);
+  EXPECT_GT(readings_between(dropped(rope), 410, 510), 500);
+}
+
 TEST(Sunken, ThePriorBridgesTheStretch) {
   DrawnRope rope = draw_rope(straight_line());
   repaint(rope, 250, 400, 1.86F);

@@ -44,6 +44,13 @@ TEST(EstimateJson, HasTheFieldsOfTheContract) {
   EXPECT_DOUBLE_EQ(json["device_timings_ms"]["step"], 9.0);
 }
 
+TEST(EstimateJson, NamesTheGateThatGivesConfidenceItsMeaning) {
+  auto estimate = test::sample_estimate();
+  EXPECT_EQ(Json::parse(estimate_json(estimate, kProvenance))["gate"], "thesis");
+  estimate.calibrated = true;
+  EXPECT_EQ(Json::parse(estimate_json(estimate, kProvenance))["gate"], "calibrated");
+}
+
 TEST(EstimateJson, PriorHasNoDraw) {
   auto estimate = test::sample_estimate();
   estimate.source = Source::kPrior;

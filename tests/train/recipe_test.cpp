@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <string>
 
 namespace flowdlo::train {
 namespace {
@@ -19,6 +20,29 @@ TEST(Recipe, EveryRecipeOfTheRepositoryIsReadAndWritesItself) {
     EXPECT_EQ(to_json(*again), to_json(*recipe));
     EXPECT_EQ(again->variant, recipe->variant);
   }
+}
+
+TEST(Recipe, AblationsOfTheThesisDifferInTheirVariantOnly) {
+  const auto full = read_recipe(kRecipes / "ablation/full.json");
+  ASSERT_TRUE(full) << full.error().message;
+  for (const char* name : {"no-points", "direct", "residual"}) {
+    auto recipe = read_recipe(kRecipes / "ablation" / (std::string(name) + ".json"));
+    ASSERT_TRUE(recipe) << recipe.error().message;
+    EXPECT_NE(recipe->variant, full->variant) << name;
+    recipe->variant = full->variant;
+    recipe->name = full->name;
+    EXPECT_EQ(to_json(*recipe), to_json(*full)) << name;
+  }
+}
+
+TEST(Recipe, EveryAblationHasTheSameBudget) {
+  const auto full = read_recipe(kRecipes / "ablation/full.json");
+  const auto ours = read_recipe(kRecipes / "ablation/preconditioned.json");
+  ASSERT_TRUE(full);
+  ASSERT_TRUE(ours) << ours.error().message;
+  EXPECT_EQ(ours->optimizer.steps, full->optimizer.steps);
+  EXPECT_EQ(ours->optimizer.batch, full->optimizer.batch);
+  EXPECT_EQ(ours->data.training_scenes, full->data.training_scenes);
 }
 
 TEST(Recipe, ThesisIsSection413) {

@@ -196,6 +196,19 @@ TEST(SamplePlan, IntersectionsComeTwiceAsOften) {  // Sec. 4.1.3
   EXPECT_NEAR(static_cast<double>(intersections) / kDraws, 2.0 / 3, 0.02);
 }
 
+TEST(SamplePlan, ScenesWithAWrongPriorComeAsOftenAsAsked) {
+  std::vector<Record> records{golden_record(), golden_record()};
+  for (Record& record : records) record.truth = record.priors.front().nodes;
+  for (Point3& node : records[1].truth) node.y += 0.05F;
+  const SamplePlan plan(records, {.wrong_weight = 3}, 3);
+  int wrong = 0;
+  constexpr int kDraws = 6000;
+  for (int i = 0; i < kDraws; ++i) {
+    wrong += plan.choose(static_cast<std::uint64_t>(i), 0, 1).record == 1 ? 1 : 0;
+  }
+  EXPECT_NEAR(static_cast<double>(wrong) / kDraws, 0.75, 0.02);
+}
+
 TEST(SamplePlan, SameStepAndSlotGiveTheSameSample) {
   const std::vector<Record> records{golden_record()};
   const SamplePlan plan(records, {}, 3);

@@ -9,6 +9,7 @@
 #include "evidence/mask_field.hpp"
 #include "flow/gaussian_source.hpp"
 #include "reference/program.hpp"
+#include "train/batch.hpp"
 #include "train/device.hpp"
 #include "train/export.hpp"
 #include "train/record_conditions.hpp"
@@ -90,6 +91,21 @@ TEST_F(Trainer, ResumedRunHasTheSameLossesToTheLastDigit) {
   for (std::size_t i = 0; i < a.size(); ++i) ASSERT_EQ(a[i].values, b[i].values) << a[i].name;
 }
 
+TEST_F(Trainer, AStateOnThePriorsPathTellsNothingOfTheTruth) {
+  auto loaded = load_records(folder_ / "records", Part::kTraining);
+  ASSERT_TRUE(loaded);
+  std::vector<Record> records{loaded->records.front()};
+  const SamplingConfig config{.rotation_share = 0, .prior_path_share = 1};
+  const auto made = [&] {
+    return make_batch(records, SamplePlan(records, config, 3), {}, 0, 4, 6);
+  };
+  const Batch batch = made();
+  for (Point3& node : records[0].truth) node.x += 0.03F;
+  const Batch other = made();
+  EXPECT_TRUE(torch::equal(batch.input.state, other.input.state));
+  EXPECT_FALSE(torch::equal(batch.target.truth, other.target.truth));
+}
+
 TEST_F(Trainer, LoaderGivesTheSameBatchesWhateverItsThreads) {
   const Recipe recipe = small_recipe();
   const auto set = load_records(folder_ / "records", Part::kTraining);
@@ -156,6 +172,25 @@ TEST_F(Trainer, ExportAsHalfKeepsEveryTensorWithinHalfPrecision) {
   ASSERT_TRUE(export_weights(weights, file, weights::StorageType::kF16));
   EXPECT_LT(std::filesystem::file_size(file), std::uintmax_t{13} << 20U);
   EXPECT_FALSE(export_weights(weights, folder_ / "half.bin", weights::StorageType::kF16));
+}
+
+TEST(TakeRecipe, ChangesTheSamplingAndKeepsTheModel) {
+  TrainingState state = start(small_recipe(), torch::kCPU);
+  const auto before = state.model->parameters().front().clone();
+  Recipe recipe = small_recipe();
+  recipe.sampling.prior_path_share = 0.5;
+  ASSERT_TRUE(take_recipe(state, recipe));
+  EXPECT_EQ(state.recipe.sampling.prior_path_share, 0.5);
+  EXPECT_TRUE(torch::equal(state.model->parameters().front(), before));
+}
+
+TEST(TakeRecipe, OfAnotherModelIsRefused) {
+  TrainingState state = start(small_recipe(), torch::kCPU);
+  Recipe recipe = small_recipe();
+  recipe.variant.visible_points = !recipe.variant.visible_points;
+  const auto taken = take_recipe(state, recipe);
+  ASSERT_FALSE(taken);
+  EXPECT_NE(taken.error().message.find("another variant"), std::string::npos);
 }
 
 TEST_F(Trainer, WhatIsNoCheckpointIsRefused) {

@@ -7,7 +7,6 @@
 #include "reference/program.hpp"
 
 namespace flowdlo::vulkan::testing {
-namespace {
 
 void expect_near(const std::vector<float>& expected, const std::vector<float>& got,
                  float relative) {
@@ -25,8 +24,6 @@ void expect_near(const std::vector<float>& expected, const std::vector<float>& g
   EXPECT_LE(worst, relative * largest)
       << "entry " << where << ": expected " << expected[where] << ", got " << got[where];
 }
-
-}  // namespace
 
 const std::vector<std::shared_ptr<Device>>& devices() {
   static const std::vector<std::shared_ptr<Device>> opened = [] {

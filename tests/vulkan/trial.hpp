@@ -48,6 +48,9 @@ using Record = std::function<void(Trial&)>;
 Outputs run_on_cpu(const Record& record);
 Outputs run_on(const std::shared_ptr<Device>& device, const Record& record);
 
+/// Fails where an entry differs by more than relative * (largest magnitude expected).
+void expect_near(const std::vector<float>& expected, const std::vector<float>& got, float relative);
+
 /// Fails where any output of any device differs from the CPU's by more than
 /// relative * (largest magnitude of that output).
 void expect_twins(const Record& record, float relative);

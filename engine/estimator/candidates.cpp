@@ -1,0 +1,70 @@
+#include "estimator/candidates.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <numeric>
+
+#include "geometry/polyline.hpp"
+
+namespace flowdlo::estimator {
+namespace {
+
+float length_off(const Centerline& nodes, double rope_length_m) {
+  if (!(rope_length_m > 0)) return 0;
+  const auto segments = geometry::segment_lengths(nodes);
+  const double length_m = std::accumulate(segments.begin(), segments.end(), 0.0);
+  return static_cast<float>(std::abs(std::log(std::max(1e-6, length_m) / rope_length_m)));
+}
+
+gate::Candidate prior_candidate(const Hypothesis& hypothesis, int index, double best) {
+  gate::Candidate candidate;
+  candidate.nodes = hypothesis.prior.nodes;
+  candidate.sigma_m = hypothesis.prior.sigma_m;
+  candidate.hypothesis = index;
+  candidate.behind = best - hypothesis.score;
+  const auto& support = hypothesis.prior.support;
+  candidate.supported =
+      static_cast<float>(std::count(support.begin(), support.end(), std::uint8_t{1})) / kNodes;
+  const Evidence& evidence = hypothesis.evidence;
+  candidate.bridged = evidence.bridged;
+  candidate.longest_gap = evidence.longest_gap;
+  candidate.hidden_ends = evidence.hidden_ends;
+  candidate.buried_ends = evidence.buried_ends;
+  candidate.ring = evidence.ring ? 1 : 0;
+  return candidate;
+}
+
+}  // namespace
+
+std::vector<gate::Candidate> list_candidates(const Conditions& conditions,
+                                             const flow::Prediction& prediction,
+                                             const std::vector<DrawReport>& reports,
+                                             const std::vector<int>& assigned, const Frame& frame,
+                                             double rope_length_m) {
+  const auto& hypotheses = conditions.hypotheses;
+  gate::TubeView view(frame, conditions.paths.rope_width_px);
+  std::vector<gate::Candidate> candidates;
+  const auto measure = [&](gate::Candidate& candidate) {
+    candidate.tube = view.score(candidate.nodes, candidate.radius_m);
+    candidate.length_off = length_off(candidate.nodes, rope_length_m);
+    candidates.push_back(candidate);
+  };
+  for (std::size_t h = 0; h < hypotheses.size(); ++h) {
+    auto candidate = prior_candidate(hypotheses[h], static_cast<int>(h), hypotheses.front().score);
+    candidate.radius_m = view.radius_m(candidate.nodes);
+    measure(candidate);
+  }
+  for (std::size_t d = 0; d < prediction.draws.size(); ++d) {
+    if (!reports[d].accepted) continue;
+    gate::Candidate candidate = candidates[static_cast<std::size_t>(assigned[d])];
+    candidate.draw = static_cast<int>(d);
+    candidate.nodes = prediction.draws[d];
+    if (!prediction.sigma_m.empty()) candidate.sigma_m = prediction.sigma_m[d];
+    measure(candidate);
+  }
+  return candidates;
+}
+
+}  // namespace flowdlo::estimator

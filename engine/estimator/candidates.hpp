@@ -1,0 +1,23 @@
+// Candidates: every centerline that one frame has brought forth, for the calibrated gate.
+#pragma once
+
+#include <vector>
+
+#include "estimator/conditions.hpp"
+#include "flow/sampler.hpp"
+#include "flowdlo/frame.hpp"
+#include "gate/candidate.hpp"
+
+namespace flowdlo::estimator {
+
+/// First the prior of each hypothesis, then each draw that is plausible, Eq. (3.31) and (3.32), by
+/// its report. `assigned` is [D], the hypothesis that each draw was conditioned on; `rope_length_m`
+/// 0: unknown.
+[[nodiscard]] std::vector<gate::Candidate> list_candidates(const Conditions& conditions,
+                                                           const flow::Prediction& prediction,
+                                                           const std::vector<DrawReport>& reports,
+                                                           const std::vector<int>& assigned,
+                                                           const Frame& frame,
+                                                           double rope_length_m);
+
+}  // namespace flowdlo::estimator

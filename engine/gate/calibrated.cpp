@@ -1,0 +1,86 @@
+#include "gate/calibrated.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace flowdlo::gate {
+namespace {
+
+constexpr double kUnopposed = 99;
+constexpr double kLeastSigma_m = 1e-5;
+constexpr double kMostSigma_m = 10;
+
+template <std::size_t Size>
+double dot(const std::array<double, Size>& a, const std::array<double, Size>& b) {
+  return std::inner_product(a.begin(), a.end(), b.begin(), 0.0);
+}
+
+}  // namespace
+
+std::vector<std::size_t> returned_by(std::span<const Candidate> candidates,
+                                     const GateWeights& weights) {
+  std::vector<std::size_t> returned;
+  std::vector<double> best;
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    if (candidates[i].draw < 0) {
+      returned.push_back(i);
+      best.push_back(weights.draw_margin);
+      continue;
+    }
+    const double score = dot(draw_features(candidates, i), weights.draw);
+    const auto hypothesis = static_cast<std::size_t>(candidates[i].hypothesis);
+    if (!(score > best[hypothesis])) continue;
+    best[hypothesis] = score;
+    returned[hypothesis] = i;
+  }
+  return returned;
+}
+
+double hypothesis_score(std::span<const Candidate> candidates, std::size_t index,
+                        const GateWeights& weights) {
+  const double score = dot(hypothesis_features(candidates, index), weights.hypothesis);
+  return std::isfinite(score) ? score : std::numeric_limits<double>::lowest();
+}
+
+std::size_t preferred(std::span<const double> scores, double margin) {
+  const auto best =
+      static_cast<std::size_t>(std::max_element(scores.begin(), scores.end()) - scores.begin());
+  return scores[best] > scores[0] + margin ? best : 0;
+}
+
+double lead_elsewhere(std::span<const Candidate> candidates, std::span<const std::size_t> returned,
+                      std::span<const double> scores, std::size_t chosen) {
+  double lead = kUnopposed;
+  for (std::size_t h = 0; h < returned.size(); ++h) {
+    if (h == chosen || !runs_elsewhere(candidates[returned[chosen]], candidates[returned[h]])) {
+      continue;
+    }
+    lead = std::min(lead, scores[chosen] - scores[h]);
+  }
+  return lead;
+}
+
+Choice choose_calibrated(std::span<const Candidate> candidates, const GateWeights& weights) {
+  const auto returned = returned_by(candidates, weights);
+  std::vector<double> scores;
+  for (const std::size_t index : returned) {
+    scores.push_back(hypothesis_score(candidates, index, weights));
+  }
+  const std::size_t hypothesis = preferred(scores, weights.hypothesis_margin);
+  const double lead = lead_elsewhere(candidates, returned, scores, hypothesis);
+  Choice choice;
+  choice.chosen = returned[hypothesis];
+  const double logit = dot(closeness_features(candidates, choice.chosen, lead), weights.closeness);
+  choice.probability = std::isfinite(logit) ? 1 / (1 + std::exp(-logit)) : 0;
+  for (std::size_t node = 0; node < kNodes; ++node) {
+    const double sigma_m = std::exp(
+        dot(sigma_features(candidates, choice.chosen, node, choice.probability), weights.sigma));
+    choice.sigma_m[node] = static_cast<float>(
+        std::isfinite(sigma_m) ? std::clamp(sigma_m, kLeastSigma_m, kMostSigma_m) : kMostSigma_m);
+  }
+  return choice;
+}
+
+}  // namespace flowdlo::gate

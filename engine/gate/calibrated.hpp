@@ -1,0 +1,63 @@
+// The calibrated gate: the candidate that a score fitted on synthetic scenes prefers, how likely it
+// is to be close to the truth, and how far its nodes may be off.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "flowdlo/centerline.hpp"
+#include "gate/candidate.hpp"
+#include "gate/candidate_features.hpp"
+
+namespace flowdlo::gate {
+
+/// A mean index error below this, Eq. (4.1), is what the probability promises.
+inline constexpr double kCloseError_m = 0.01;
+
+/// What flowdlo_gate_fit fits. Every model has its own.
+struct GateWeights {
+  std::array<double, kDrawFeatures> draw{};
+  double draw_margin = 0;  ///< score above which a draw replaces its prior
+  std::array<double, kHypothesisFeatures> hypothesis{};
+  double hypothesis_margin = 0;  ///< score by which a runner-up has to beat the best hypothesis
+  std::array<double, kClosenessFeatures> closeness{};
+  std::array<double, kSigmaFeatures> sigma{};
+};
+
+/// Of the weights that come with FlowDLO.
+[[nodiscard]] const GateWeights& fitted_weights();
+
+struct Choice {
+  std::size_t chosen = 0;  ///< index among the candidates; ties go to the lower one
+  double probability = 0;  ///< [0, 1] that its index error is below kCloseError_m, either way round
+  std::array<float, kNodes> sigma_m{};  ///< 68 % of nodes are off by less, 95 % by less than twice
+};
+
+/// [hypotheses] index of the candidate that each would return: its draw of highest score where that
+/// passes the margin, ties to the lower index, otherwise its prior.
+[[nodiscard]] std::vector<std::size_t> returned_by(std::span<const Candidate> candidates,
+                                                   const GateWeights& weights);
+
+/// The score of a candidate as what its hypothesis would return; higher is better. The lowest there
+/// is where anything is not finite.
+[[nodiscard]] double hypothesis_score(std::span<const Candidate> candidates, std::size_t index,
+                                      const GateWeights& weights);
+
+/// Which of the scores is taken: the highest where it leads the first by more than the margin,
+/// otherwise the first.
+[[nodiscard]] std::size_t preferred(std::span<const double> scores, double margin);
+
+/// Score by which hypothesis `chosen` leads the best that runs elsewhere, which can be negative;
+/// `returned` and `scores` are [hypotheses].
+[[nodiscard]] double lead_elsewhere(std::span<const Candidate> candidates,
+                                    std::span<const std::size_t> returned,
+                                    std::span<const double> scores, std::size_t chosen);
+
+/// `candidates` is not empty, begins with the best prior, and lists a prior at the index of each
+/// hypothesis.
+[[nodiscard]] Choice choose_calibrated(std::span<const Candidate> candidates,
+                                       const GateWeights& weights = fitted_weights());
+
+}  // namespace flowdlo::gate

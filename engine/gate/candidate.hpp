@@ -1,0 +1,29 @@
+// Candidate: a centerline that an estimate may return, and what is known about it without truth.
+#pragma once
+
+#include <array>
+
+#include "flowdlo/centerline.hpp"
+#include "gate/tube_score.hpp"
+
+namespace flowdlo::gate {
+
+/// A prior, or a draw's prediction beside the prior that conditioned it.
+struct Candidate {
+  Centerline nodes{};
+  std::array<float, kNodes> sigma_m{};  ///< a prior's own, or what the model says of its draw
+  int draw = -1;                        ///< -1: a prior
+  int hypothesis = 0;                   ///< index of the prior's candidate, best score first
+  float radius_m = 0;                   ///< of the rope, as the mask has it
+  TubeScore tube;       ///< how it looks beside mask and depth; the worst where it cannot be drawn
+  double behind = 0;    ///< path score by which its traversal trails the best; at least 0
+  float supported = 0;  ///< [0, 1] share of nodes with support
+  float bridged = 0;    ///< [0, 1] share of its traversal on links over gaps
+  float longest_gap = 0;  ///< of its traversal, rope widths
+  float hidden_ends = 0;  ///< [0, 1] half for each tip where an occluder begins
+  float buried_ends = 0;  ///< [0, 1] half for each end on another strand
+  float ring = 0;         ///< 1: the traversal is closed, its ends are a guess
+  float length_off = 0;   ///< |log of its length against the known one|; 0 where none is known
+};
+
+}  // namespace flowdlo::gate

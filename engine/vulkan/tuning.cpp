@@ -1,0 +1,94 @@
+#include "vulkan/tuning.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstring>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <type_traits>
+
+#include "vulkan/gemm_candidates.hpp"
+#include "vulkan/gemm_trial.hpp"
+#include "vulkan/stored_file.hpp"
+
+namespace flowdlo::vulkan {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr std::string_view kKind = "gemm";
+constexpr double kBudget_ms = 100;
+// A later candidate must be clearly faster: noise must not change a device's bits from run to run.
+constexpr double kClearly = 0.9;
+
+/// The stored choice, where it is still one of the candidates.
+std::optional<GemmChoice> stored_choice(const Device& device, const std::filesystem::path& folder,
+                                        const std::vector<GemmChoice>& candidates) {
+  const std::vector<char> content = read_stored(device, folder, kKind);
+  GemmChoice choice;
+  if (content.size() != sizeof(choice)) return std::nullopt;
+  std::memcpy(&choice, content.data(), sizeof(choice));
+  const bool known = std::find(candidates.begin(), candidates.end(), choice) != candidates.end();
+  return known ? std::optional(choice) : std::nullopt;
+}
+
+void store_choice(const Device& device, const std::filesystem::path& folder,
+                  const GemmChoice& choice) {
+  static_assert(std::has_unique_object_representations_v<GemmChoice>);
+  std::vector<char> content(sizeof(choice));
+  std::memcpy(content.data(), &choice, sizeof(choice));
+  write_stored(device, folder, kKind, content);
+}
+
+Result<GemmChoice> best_of(const std::shared_ptr<Device>& device,
+                           const std::vector<GemmChoice>& candidates, const Disturb& disturb) {
+  const bool is_cpu = device->facts().report.kind == DeviceKind::kCpu;
+  const auto start = Clock::now();
+  std::optional<GemmChoice> best;
+  double best_ms = 0;
+  std::string faults;
+  for (const GemmChoice& candidate : candidates) {
+    const auto time_ms = try_gemm(device, candidate, disturb);
+    if (!time_ms) {
+      faults += fmt::format("{}{}", faults.empty() ? "" : "; ", time_ms.error().message);
+      if (time_ms.error().code == ErrorCode::kDeviceLost) return time_ms.error();
+      continue;
+    }
+    if (!best || *time_ms < kClearly * best_ms) {
+      best = candidate;
+      best_ms = *time_ms;
+    }
+    const std::chrono::duration<double, std::milli> elapsed = Clock::now() - start;
+    if (is_cpu || elapsed.count() > kBudget_ms) break;
+  }
+  if (best) return *best;
+  return Error{ErrorCode::kNoDevice,
+               fmt::format("\"{}\": expected a kernel for dense layers that returns right numbers, "
+                           "got none ({}); update its driver or choose another device",
+                           device->facts().report.name, faults)};
+}
+
+}  // namespace
+
+Result<GemmChoice> choose_gemm(const std::shared_ptr<Device>& device,
+                               const ProgramOptions& options) {
+  if (options.gemm) return *options.gemm;
+  const std::lock_guard lock(device->tuning_mutex());
+  if (device->gemm()) return *device->gemm();
+  const std::vector<GemmChoice> candidates = gemm_candidates(device->facts());
+  const bool keeps = !options.pipeline_cache.empty();
+  auto stored = keeps ? stored_choice(*device, options.pipeline_cache, candidates) : std::nullopt;
+  if (!stored) {
+    const auto best = best_of(device, candidates, options.disturb);
+    if (!best) return best.error();
+    stored = *best;
+    if (keeps) store_choice(*device, options.pipeline_cache, *best);
+  }
+  device->remember(*stored);
+  return *stored;
+}
+
+}  // namespace flowdlo::vulkan

@@ -1,0 +1,63 @@
+#include "eval/canvas.hpp"
+
+#include <array>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+
+namespace flowdlo::eval {
+namespace {
+
+const cv::Scalar kInk{40, 40, 40};
+const cv::Scalar kGrid{225, 225, 225};
+
+cv::Size size_of(const std::string& text, double size) {
+  int below = 0;
+  return cv::getTextSize(text, cv::FONT_HERSHEY_SIMPLEX, size, 1, &below);
+}
+
+}  // namespace
+
+cv::Scalar draw_color(std::size_t index) {
+  static const std::array<cv::Scalar, 4> colors{cv::Scalar(60, 60, 220), cv::Scalar(200, 110, 30),
+                                                cv::Scalar(170, 60, 170), cv::Scalar(30, 140, 200)};
+  return colors[index % colors.size()];
+}
+
+Canvas::Canvas(int width, int height) : picture_(height, width, CV_8UC3, cv::Scalar::all(255)) {}
+
+void Canvas::write(const std::string& text, cv::Point at, double size) {
+  cv::putText(picture_, text, at, cv::FONT_HERSHEY_SIMPLEX, size, kInk, 1, cv::LINE_AA);
+}
+
+void Canvas::write_over(const std::string& text, cv::Point at, double size) {
+  const cv::Size box = size_of(text, size);
+  cv::rectangle(picture_, {at.x - 2, at.y - box.height - 2, box.width + 4, box.height + 5},
+                cv::Scalar::all(255), cv::FILLED);
+  write(text, at, size);
+}
+
+void Canvas::write_left_of(const std::string& text, cv::Point at, double size) {
+  write(text, {at.x - size_of(text, size).width, at.y}, size);
+}
+
+void Canvas::write_centred(const std::string& text, cv::Point at, double size) {
+  write(text, {at.x - size_of(text, size).width / 2, at.y}, size);
+}
+
+void Canvas::legend(const std::vector<std::pair<std::string, cv::Scalar>>& entries, cv::Point at) {
+  for (const auto& [text, color] : entries) {
+    cv::rectangle(picture_, {at.x, at.y - 11, 14, 14}, color, cv::FILLED);
+    write(text, {at.x + 20, at.y});
+    at.x += 40 + size_of(text, 0.42).width;
+  }
+}
+
+void Canvas::grid_line(cv::Point from, cv::Point to) { cv::line(picture_, from, to, kGrid); }
+
+Result<std::vector<std::uint8_t>> Canvas::png() const {
+  std::vector<std::uint8_t> bytes;
+  if (cv::imencode(".png", picture_, bytes)) return bytes;
+  return Error{ErrorCode::kInternal, "eval: expected a picture to be encoded as PNG, got nothing"};
+}
+
+}  // namespace flowdlo::eval

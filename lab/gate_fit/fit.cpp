@@ -1,0 +1,287 @@
+#include "gate_fit/fit.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+#include "confidence/choice.hpp"
+#include "eval/metrics.hpp"
+#include "gate_fit/policy.hpp"
+#include "gate_fit/quantile.hpp"
+
+namespace flowdlo::lab {
+namespace {
+
+constexpr std::size_t kFolds = 5;
+constexpr double kMostError_m = 0.1;   // worse ones are all alike: a single scene must not decide
+constexpr double kBehindAtFirst = -6;  // the ranking decides until scenes say otherwise
+constexpr double kDrawRidge = 0.5;
+constexpr double kHypothesisRidge = 0.5;
+constexpr double kMarginErrors = 0.25;
+constexpr double kNever = 99;  // a margin that nothing passes
+constexpr double kClosenessRidge = 1;
+constexpr double kSigmaRidge = 1e-4;
+constexpr double kLeastError_m = 1e-5;
+
+using Costs = std::vector<std::vector<double>>;  // [samples, candidates]
+using Indices = std::vector<std::size_t>;
+
+template <std::size_t Size>
+std::array<double, Size> as_array(const std::vector<double>& values) {
+  std::array<double, Size> result{};
+  std::copy_n(values.begin(), Size, result.begin());
+  return result;
+}
+
+template <std::size_t Size>
+double dot(const std::array<double, Size>& a, const std::array<double, Size>& b) {
+  return std::inner_product(a.begin(), a.end(), b.begin(), 0.0);
+}
+
+template <std::size_t Size>
+std::vector<double> as_vector(const std::array<double, Size>& values) {
+  return {values.begin(), values.end()};
+}
+
+std::vector<double> costs_cm(const std::vector<double>& errors_m) {
+  std::vector<double> costs;
+  for (const double error_m : errors_m) costs.push_back(100 * std::min(error_m, kMostError_m));
+  return costs;
+}
+
+std::array<double, gate::kDrawFeatures> fit_draw(const std::vector<GateSample>& samples,
+                                                 const Costs& costs, const Indices& use) {
+  std::vector<Group> groups;
+  for (const std::size_t s : use) {
+    const auto& candidates = samples[s].candidates;
+    for (std::size_t i = 0; i < candidates.size(); ++i) {
+      if (candidates[i].draw < 0) continue;
+      const auto prior = static_cast<std::size_t>(candidates[i].hypothesis);
+      groups.push_back({{as_vector(gate::draw_features(candidates, i)),
+                         std::vector<double>(gate::kDrawFeatures, 0)},
+                        {costs[s][i], costs[s][prior]}});
+    }
+  }
+  return as_array<gate::kDrawFeatures>(
+      fit_policy(groups, std::vector<double>(gate::kDrawFeatures, 0), kDrawRidge));
+}
+
+/// `returned` [samples, hypotheses].
+std::array<double, gate::kHypothesisFeatures> fit_hypothesis(const std::vector<GateSample>& samples,
+                                                             const Costs& costs,
+                                                             const std::vector<Indices>& returned,
+                                                             const Indices& use) {
+  std::vector<Group> groups;
+  for (const std::size_t s : use) {
+    if (returned[s].size() < 2) continue;
+    Group group;
+    for (const std::size_t i : returned[s]) {
+      group.rows.push_back(as_vector(gate::hypothesis_features(samples[s].candidates, i)));
+      group.costs.push_back(costs[s][i]);
+    }
+    groups.push_back(std::move(group));
+  }
+  std::vector<double> start(gate::kHypothesisFeatures, 0);
+  start.front() = kBehindAtFirst;
+  return as_array<gate::kHypothesisFeatures>(fit_policy(groups, start, kHypothesisRidge));
+}
+
+/// A score that asks for a change, and what the change costs.
+struct Change {
+  double score = 0;
+  double cost = 0;
+};
+
+/// The margin of least cost. A change nearly as good as none is not made: of the margins whose cost
+/// is within one standard error of the least, the largest.
+double fit_margin(std::vector<Change> changes) {
+  std::sort(changes.begin(), changes.end(),
+            [](const Change& a, const Change& b) { return a.score > b.score; });
+  double cost = 0;
+  double least = 0;
+  double squares = 0;
+  for (const Change& change : changes) {
+    cost += change.cost;
+    least = std::min(least, cost);
+    squares += change.cost * change.cost;
+  }
+  const double enough = least + kMarginErrors * std::sqrt(squares);
+  cost = 0;
+  double margin = changes.empty() ? kNever : changes.front().score;
+  for (std::size_t i = 0; i < changes.size() && cost > std::min(0.0, enough); ++i) {
+    cost += changes[i].cost;
+    margin = i + 1 < changes.size() ? changes[i + 1].score : 0;
+  }
+  return margin;
+}
+
+struct Outcome {
+  std::size_t chosen = 0;
+  double lead = 0;
+};
+
+std::array<double, gate::kClosenessFeatures> fit_closeness(const std::vector<GateSample>& samples,
+                                                           const Costs& costs,
+                                                           const std::vector<Outcome>& outcomes,
+                                                           const Indices& use) {
+  std::vector<Choice> choices;
+  for (const std::size_t s : use) {
+    const auto features =
+        gate::closeness_features(samples[s].candidates, outcomes[s].chosen, outcomes[s].lead);
+    Choice choice;
+    choice.rows = {as_vector(features), std::vector<double>(features.size(), 0)};
+    choice.right = costs[s][outcomes[s].chosen] < 100 * gate::kCloseError_m ? 0 : 1;
+    choices.push_back(std::move(choice));
+  }
+  return as_array<gate::kClosenessFeatures>(
+      fit(choices, gate::kClosenessFeatures, kClosenessRidge));
+}
+
+std::array<double, gate::kSigmaFeatures> fit_sigma(const std::vector<GateSample>& samples,
+                                                   const std::vector<Outcome>& outcomes,
+                                                   const std::vector<double>& probabilities) {
+  std::vector<ScaleRow> rows;
+  for (std::size_t s = 0; s < samples.size(); ++s) {
+    const auto& candidates = samples[s].candidates;
+    const auto off_m = node_errors_m(candidates[outcomes[s].chosen].nodes, samples[s].truth);
+    for (std::size_t node = 0; node < kNodes; ++node) {
+      const auto features =
+          gate::sigma_features(candidates, outcomes[s].chosen, node, probabilities[s]);
+      rows.push_back({as_vector(features), std::log(std::max(off_m[node], kLeastError_m))});
+    }
+  }
+  return as_array<gate::kSigmaFeatures>(fit_scale(rows, kSigmaRidge));
+}
+
+Indices all_but(std::size_t fold, std::size_t count) {
+  Indices indices;
+  for (std::size_t s = 0; s < count; ++s) {
+    if (s % kFolds != fold) indices.push_back(s);
+  }
+  return indices;
+}
+
+/// Calls `work` with each fold's other scenes and its own.
+template <class Work>
+void each_fold(std::size_t count, const Work& work) {
+  for (std::size_t fold = 0; fold < kFolds; ++fold) {
+    Indices own;
+    for (std::size_t s = fold; s < count; s += kFolds) own.push_back(s);
+    work(all_but(fold, count), own);
+  }
+}
+
+/// The stages of the gate, each fitted on what the one before says of scenes unknown to it.
+struct Fitting {
+  const std::vector<GateSample>& samples;
+  Costs costs;
+  std::vector<Indices> returned;  // [samples, hypotheses]
+  std::vector<Outcome> outcomes;  // [samples]
+  gate::GateWeights weights;
+
+  explicit Fitting(const std::vector<GateSample>& all)
+      : samples(all), returned(all.size()), outcomes(all.size()) {
+    for (const GateSample& sample : all) costs.push_back(costs_cm(errors_m(sample)));
+  }
+
+  void choose_draws();
+  void choose_hypotheses();
+  void calibrate();
+};
+
+void Fitting::choose_draws() {
+  std::vector<std::array<double, gate::kDrawFeatures>> unknown(samples.size());
+  std::vector<Change> changes;
+  each_fold(samples.size(), [&](const Indices& others, const Indices& own) {
+    const auto draw = fit_draw(samples, costs, others);
+    for (const std::size_t s : own) {
+      unknown[s] = draw;
+      const auto& candidates = samples[s].candidates;
+      for (std::size_t i = 0; i < candidates.size(); ++i) {
+        if (candidates[i].draw < 0) continue;
+        const auto prior = static_cast<std::size_t>(candidates[i].hypothesis);
+        changes.push_back(
+            {dot(gate::draw_features(candidates, i), draw), costs[s][i] - costs[s][prior]});
+      }
+    }
+  });
+  weights.draw_margin = fit_margin(std::move(changes));
+  for (std::size_t s = 0; s < samples.size(); ++s) {
+    weights.draw = unknown[s];
+    returned[s] = gate::returned_by(samples[s].candidates, weights);
+  }
+  weights.draw = fit_draw(samples, costs, all_but(kFolds, samples.size()));
+}
+
+void Fitting::choose_hypotheses() {
+  std::vector<std::vector<double>> scores(samples.size());
+  std::vector<Change> changes;
+  each_fold(samples.size(), [&](const Indices& others, const Indices& own) {
+    weights.hypothesis = fit_hypothesis(samples, costs, returned, others);
+    for (const std::size_t s : own) {
+      for (const std::size_t i : returned[s]) {
+        scores[s].push_back(gate::hypothesis_score(samples[s].candidates, i, weights));
+      }
+      const std::size_t best = gate::preferred(scores[s], -kNever);
+      if (best == 0) continue;
+      changes.push_back(
+          {scores[s][best] - scores[s][0], costs[s][returned[s][best]] - costs[s][returned[s][0]]});
+    }
+  });
+  weights.hypothesis_margin = fit_margin(changes);
+  for (std::size_t s = 0; s < samples.size(); ++s) {
+    const std::size_t hypothesis = gate::preferred(scores[s], weights.hypothesis_margin);
+    outcomes[s] = {returned[s][hypothesis],
+                   gate::lead_elsewhere(samples[s].candidates, returned[s], scores[s], hypothesis)};
+  }
+  weights.hypothesis = fit_hypothesis(samples, costs, returned, all_but(kFolds, samples.size()));
+}
+
+void Fitting::calibrate() {
+  std::vector<double> probabilities(samples.size());
+  each_fold(samples.size(), [&](const Indices& others, const Indices& own) {
+    const auto closeness = fit_closeness(samples, costs, outcomes, others);
+    for (const std::size_t s : own) {
+      const auto features =
+          gate::closeness_features(samples[s].candidates, outcomes[s].chosen, outcomes[s].lead);
+      probabilities[s] = 1 / (1 + std::exp(-dot(features, closeness)));
+    }
+  });
+  weights.sigma = fit_sigma(samples, outcomes, probabilities);
+  weights.closeness = fit_closeness(samples, costs, outcomes, all_but(kFolds, samples.size()));
+}
+
+}  // namespace
+
+std::array<double, kNodes> node_errors_m(const Centerline& nodes, const Centerline& truth) {
+  const Centerline fitting = eval::turned(truth, eval::score(nodes, truth));
+  std::array<double, kNodes> result{};
+  for (std::size_t i = 0; i < kNodes; ++i) {
+    const Point3& a = nodes[i];
+    const Point3& b = fitting[i];
+    result[i] = std::hypot(static_cast<double>(a.x) - static_cast<double>(b.x),
+                           static_cast<double>(a.y) - static_cast<double>(b.y),
+                           static_cast<double>(a.z) - static_cast<double>(b.z));
+  }
+  return result;
+}
+
+std::vector<double> errors_m(const GateSample& sample) {
+  std::vector<double> errors;
+  for (const gate::Candidate& candidate : sample.candidates) {
+    const auto off_m = node_errors_m(candidate.nodes, sample.truth);
+    errors.push_back(std::accumulate(off_m.begin(), off_m.end(), 0.0) / kNodes);
+  }
+  return errors;
+}
+
+gate::GateWeights fit_gate(const std::vector<GateSample>& samples) {
+  Fitting fitting(samples);
+  fitting.choose_draws();
+  fitting.choose_hypotheses();
+  fitting.calibrate();
+  return fitting.weights;
+}
+
+}  // namespace flowdlo::lab

@@ -1,0 +1,22 @@
+// Fit: the weights of the calibrated gate, from samples with truth.
+#pragma once
+
+#include <vector>
+
+#include "gate/calibrated.hpp"
+#include "gate_fit/sample.hpp"
+
+namespace flowdlo::lab {
+
+/// Mean index error of each candidate against the truth, Eq. (4.1), in the better direction.
+[[nodiscard]] std::vector<double> errors_m(const GateSample& sample);
+
+/// [64] distances from the truth in the better direction.
+[[nodiscard]] std::array<double, kNodes> node_errors_m(const Centerline& nodes,
+                                                       const Centerline& truth);
+
+/// `samples` hold at least five. What one stage learns from another's answers, it learns from
+/// answers to scenes which that stage was not fitted on.
+[[nodiscard]] gate::GateWeights fit_gate(const std::vector<GateSample>& samples);
+
+}  // namespace flowdlo::lab

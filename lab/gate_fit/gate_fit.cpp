@@ -1,0 +1,247 @@
+// flowdlo_gate_fit fit: fits the calibrated gate to a model on synthetic training frames and writes
+// engine/gate/fitted_weights.cpp. flowdlo_gate_fit report: what the gate is worth on frames that it
+// was not fitted on.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "estimator/device_choice.hpp"
+#include "flowdlo/weights.hpp"
+#include "gate_fit/constants.hpp"
+#include "gate_fit/fit.hpp"
+#include "gate_fit/report.hpp"
+#include "gate_fit/sample.hpp"
+#include "gate_fit/sample_file.hpp"
+#include "progress_bar.hpp"
+#include "weights/weights.hpp"
+
+namespace {
+
+namespace lab = flowdlo::lab;
+namespace synth = flowdlo::synth;
+using flowdlo::Error;
+using flowdlo::Result;
+using Samples = std::vector<lab::GateSample>;
+
+constexpr std::uint64_t kFirstUntrained = 1000000;  // training takes its scenes from the front
+constexpr int kLeastScenes = 50;
+constexpr std::uint64_t kLengthKnownEvery = 4;
+constexpr std::uint64_t kApart = 500000;  // between scenes with and without the model
+constexpr int kPixels = 1280 * 720;
+
+struct Options {
+  std::string weights;
+  std::string cache;
+  std::string constants;
+  std::string split = "wide";
+  std::string part = "training";
+  int scenes = 1000;
+  int more = 0;
+  std::uint64_t first = kFirstUntrained;
+  int threads = 1;
+  int draws = 4;
+  int steps = 10;
+  bool quiet = false;
+};
+
+/// Scenes of one split and part, with or without the model.
+struct Batch {
+  lab::SampleOrigin origin;
+  int scenes = 0;
+  std::string file;  ///< empty: keep nothing
+};
+
+/// Every so many training frames come with the rope's length, so that the fit learns what it is
+/// worth.
+double known_length_m(const lab::SampleOrigin& origin, std::uint64_t index, double length_m) {
+  return origin.part == "training" && index % kLengthKnownEvery == 0 ? length_m : 0;
+}
+
+struct Model {
+  std::shared_ptr<const flowdlo::weights::Weights> weights;
+  std::optional<flowdlo::flow::Sampler> sampler;  ///< none: priors alone
+};
+
+Result<Model> open_model(const Options& options, bool with_sampler) {
+  auto loaded = flowdlo::weights::load(options.weights);
+  if (!loaded) return loaded.error();
+  Model model;
+  model.weights = std::make_shared<const flowdlo::weights::Weights>(*std::move(loaded));
+  if (!with_sampler) return model;
+  const auto back_end = flowdlo::estimator::cpu_back_end(options.threads);
+  auto sampler = flowdlo::flow::Sampler::create(
+      model.weights, back_end.make_program,
+      {.draws = options.draws,
+       .steps = options.steps,
+       .capacity = {
+           .cloud_points = kPixels / 4, .field_texels = kPixels / 4, .image_pixels = kPixels}});
+  if (!sampler) return sampler.error();
+  model.sampler = *std::move(sampler);
+  return model;
+}
+
+/// Scenes `done` and later.
+Result<Samples> measured(const Options& options, const Batch& batch, int done) {
+  auto model = open_model(options, batch.origin.draws > 0);
+  if (!model) return model.error();
+  Samples samples;
+  flowdlo::tools::ProgressBar bar(batch.origin.draws > 0 ? "scenes" : "scenes without model",
+                                  batch.scenes - done, options.quiet);
+  for (int i = done; i < batch.scenes; ++i) {
+    const std::uint64_t index = batch.origin.first + static_cast<std::uint64_t>(i);
+    const auto scene =
+        synth::make_frame(*synth::split_of(batch.origin.split), *synth::part_of(batch.origin.part),
+                          /*seed=*/0, index, {.color = false});
+    if (!scene) return scene.error();
+    auto sample = lab::measure(*scene, model->sampler ? &*model->sampler : nullptr, options.draws,
+                               model->weights->metadata.variant.prior_kind,
+                               known_length_m(batch.origin, index, scene->meta.length_m));
+    if (sample) samples.push_back(*std::move(sample));
+    bar.advance();
+  }
+  return samples;
+}
+
+/// From the file as far as it reaches, the rest anew.
+Result<Samples> samples_of(const Options& options, const Batch& batch) {
+  lab::SampleFile kept;
+  if (!batch.file.empty()) {
+    auto read = lab::read_samples(batch.file, batch.origin);
+    if (!read) return read.error();
+    kept = *std::move(read);
+  }
+  if (kept.scenes < batch.scenes) {
+    auto more = measured(options, batch, kept.scenes);
+    if (!more) return more.error();
+    kept.samples.insert(kept.samples.end(), more->begin(), more->end());
+    kept.scenes = batch.scenes;
+    if (!batch.file.empty()) {
+      auto written = lab::write_samples(batch.file, batch.origin, kept);
+      if (!written) return written.error();
+    }
+  }
+  std::erase_if(kept.samples, [&](const lab::GateSample& sample) {
+    return sample.index >= batch.origin.first + static_cast<std::uint64_t>(batch.scenes);
+  });
+  return std::move(kept.samples);
+}
+
+Result<Samples> with_model(const Options& options) {
+  const auto info = flowdlo::inspect_weights(options.weights);
+  if (!info) return info.error();
+  return samples_of(options, {.origin = {.weights_sha256 = info->sha256,
+                                         .split = options.split,
+                                         .part = options.part,
+                                         .first = options.first,
+                                         .draws = options.draws,
+                                         .steps = options.steps},
+                              .scenes = options.scenes,
+                              .file = options.cache.empty() ? "" : options.cache + ".jsonl"});
+}
+
+Result<Samples> without_model(const Options& options) {
+  if (options.more == 0) return Samples{};
+  return samples_of(options,
+                    {.origin = {.weights_sha256 = "",
+                                .split = options.split,
+                                .part = options.part,
+                                .first = options.first + kApart},
+                     .scenes = options.more,
+                     .file = options.cache.empty() ? "" : options.cache + "_priors.jsonl"});
+}
+
+int failed(const Error& error) {
+  fmt::print(stderr, "{}\n", error.message);
+  return 1;
+}
+
+int fit(const Options& options) {
+  const auto samples = with_model(options);
+  if (!samples) return failed(samples.error());
+  const auto more = without_model(options);
+  if (!more) return failed(more.error());
+  Samples all = *samples;
+  all.insert(all.end(), more->begin(), more->end());
+  const auto weights = lab::fit_gate(all);
+  const auto info = flowdlo::inspect_weights(options.weights);
+  const std::string origin =
+      fmt::format("Fitted on {} scenes of {} {} from {}, and {} without a model; weights {}...",
+                  samples->size(), options.split, options.part, options.first, more->size(),
+                  info ? info->sha256.substr(0, 16) : "unknown");
+  const std::string text = lab::constants_text(weights, origin);
+  if (options.constants.empty()) {
+    fmt::print("{}", text);
+  } else if (auto written = lab::write_text(options.constants, text); !written) {
+    return failed(written.error());
+  }
+  fmt::print(stderr, "{}", lab::report(*samples, weights));
+  return 0;
+}
+
+int report(const Options& options) {
+  const auto samples = with_model(options);
+  if (!samples) return failed(samples.error());
+  fmt::print("{}", lab::report(*samples, flowdlo::gate::fitted_weights()));
+  return 0;
+}
+
+void add_options(CLI::App& command, Options& options) {
+  command.add_option("--weights", options.weights, "Weights of the model, .fdw")
+      ->required()
+      ->check(CLI::ExistingFile);
+  command
+      .add_option("--cache", options.cache,
+                  "Keep what was measured in NAME.jsonl and NAME_priors.jsonl; remove them when "
+                  "path or prior change")
+      ->type_name("NAME");
+  command.add_option("--split", options.split, "wide or thesis")
+      ->check(CLI::IsMember({"wide", "thesis"}))
+      ->capture_default_str();
+  command.add_option("--scenes", options.scenes, "How many")
+      ->check(CLI::Range(kLeastScenes, 1000000))
+      ->capture_default_str();
+  command.add_option("--first", options.first, "Index of the first")->capture_default_str();
+  command.add_option("--threads", options.threads, "Of the CPU back end; 0: one a core")
+      ->check(CLI::Range(0, 1024))
+      ->capture_default_str();
+  command.add_option("--draws", options.draws, "As the estimator is used")
+      ->check(CLI::Range(1, 64))
+      ->capture_default_str();
+  command.add_option("--steps", options.steps, "Euler steps")
+      ->check(CLI::Range(1, 64))
+      ->capture_default_str();
+  command.add_flag("--quiet", options.quiet, "No progress bar");
+}
+
+}  // namespace
+
+int main(int count, char** values) {
+  Options fitting;
+  Options reporting;
+  reporting.part = "validation";
+  reporting.first = 0;
+  reporting.scenes = 300;
+  CLI::App app{"The calibrated gate on synthetic frames with truth"};
+  app.require_subcommand(1);
+  auto* fit_command = app.add_subcommand("fit", "Fit to a model on training frames");
+  add_options(*fit_command, fitting);
+  fit_command
+      ->add_option("--more", fitting.more,
+                   "Scenes beyond those, for what does not depend on the model; quick")
+      ->check(CLI::Range(0, 1000000))
+      ->capture_default_str();
+  fit_command->add_option("--constants", fitting.constants, "Write them to FILE, not to stdout")
+      ->type_name("FILE");
+  auto* report_command = app.add_subcommand("report", "What the compiled constants are worth");
+  add_options(*report_command, reporting);
+  report_command->add_option("--part", reporting.part, "training or validation")
+      ->check(CLI::IsMember({"training", "validation"}))
+      ->capture_default_str();
+  CLI11_PARSE(app, count, values);
+  return fit_command->parsed() ? fit(fitting) : report(reporting);
+}

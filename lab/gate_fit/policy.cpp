@@ -1,0 +1,56 @@
+#include "gate_fit/policy.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace flowdlo::lab {
+namespace {
+
+constexpr int kSteps = 600;
+constexpr double kRate = 0.05;       // of a weight, in one step; falls to nothing
+constexpr double kMomentum = 0.9;    // of the mean slope
+constexpr double kSmoothing = 0.99;  // of the mean squared slope
+constexpr double kLeastSlope = 1e-8;
+
+/// Adds what one group's expected cost rises by with each weight.
+void add_slope(const Group& group, const std::vector<double>& weights, std::vector<double>& slope) {
+  std::vector<double> chance;
+  for (const auto& row : group.rows) {
+    chance.push_back(std::inner_product(row.begin(), row.end(), weights.begin(), 0.0));
+  }
+  const double most = *std::max_element(chance.begin(), chance.end());
+  double sum = 0;
+  for (double& value : chance) sum += value = std::exp(value - most);
+  double mean = 0;
+  for (std::size_t i = 0; i < chance.size(); ++i) mean += (chance[i] /= sum) * group.costs[i];
+  for (std::size_t i = 0; i < chance.size(); ++i) {
+    const double factor = chance[i] * (group.costs[i] - mean);
+    for (std::size_t k = 0; k < slope.size(); ++k) slope[k] += factor * group.rows[i][k];
+  }
+}
+
+}  // namespace
+
+std::vector<double> fit_policy(const std::vector<Group>& groups, std::vector<double> start,
+                               double ridge) {
+  std::vector<double>& weights = start;
+  std::vector<double> mean(weights.size(), 0);
+  std::vector<double> square(weights.size(), 0);
+  for (int step = 1; step <= kSteps; ++step) {
+    std::vector<double> slope;
+    for (const double weight : weights) slope.push_back(2 * ridge * weight);
+    for (const Group& group : groups) add_slope(group, weights, slope);
+    const double rate = kRate * (1 - static_cast<double>(step - 1) / kSteps);
+    for (std::size_t k = 0; k < weights.size(); ++k) {
+      mean[k] = kMomentum * mean[k] + (1 - kMomentum) * slope[k];
+      square[k] = kSmoothing * square[k] + (1 - kSmoothing) * slope[k] * slope[k];
+      const double centred = mean[k] / (1 - std::pow(kMomentum, step));
+      const double size = std::sqrt(square[k] / (1 - std::pow(kSmoothing, step)));
+      weights[k] -= rate * centred / (size + kLeastSlope);
+    }
+  }
+  return start;
+}
+
+}  // namespace flowdlo::lab

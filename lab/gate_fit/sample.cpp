@@ -1,0 +1,63 @@
+#include "gate_fit/sample.hpp"
+
+#include "estimator/candidates.hpp"
+#include "estimator/conditions.hpp"
+#include "eval/metrics.hpp"
+#include "evidence/mask_field.hpp"
+#include "gate/gate.hpp"
+
+namespace flowdlo::lab {
+namespace {
+
+/// What the model makes of a frame; without one, nothing.
+struct Drawn {
+  std::vector<int> assigned;
+  flow::Prediction prediction;
+  std::vector<DrawReport> reports;
+};
+
+std::optional<Drawn> draw(const Frame& frame, const estimator::Conditions& conditions,
+                          flow::Sampler* sampler, int draws) {
+  Drawn drawn;
+  if (sampler == nullptr) return drawn;
+  const auto& hypotheses = conditions.hypotheses;
+  drawn.assigned = estimator::spread_draws(static_cast<int>(hypotheses.size()), draws);
+  std::vector<prior::Prior> priors;
+  std::vector<Centerline> prior_nodes;
+  for (const int hypothesis : drawn.assigned) {
+    priors.push_back(hypotheses[static_cast<std::size_t>(hypothesis)].prior);
+    prior_nodes.push_back(priors.back().nodes);
+  }
+  const auto field = evidence::mask_field(frame);
+  auto prediction = sampler->sample(
+      {.frame = frame, .cloud = conditions.cloud, .field = field, .draw_priors = priors});
+  if (!prediction) return std::nullopt;
+  drawn.prediction = *std::move(prediction);
+  drawn.reports = gate::choose(drawn.prediction.draws, prior_nodes, prior_nodes.front(),
+                               gate::DilatedMask(frame), frame.intrinsics)
+                      .draws;
+  return drawn;
+}
+
+}  // namespace
+
+std::optional<GateSample> measure(const synth::SyntheticFrame& scene, flow::Sampler* sampler,
+                                  int draws, weights::PriorKind kind, double rope_length_m) {
+  const Frame frame = scene.frame();
+  Timings timings;
+  const auto conditions = estimator::gather(frame, rope_length_m, kind, timings);
+  if (!conditions) return std::nullopt;
+  const auto drawn = draw(frame, *conditions, sampler, draws);
+  if (!drawn) return std::nullopt;
+  GateSample sample;
+  sample.index = scene.meta.index;
+  sample.scenario = scene.meta.scenario;
+  sample.easy = scene.meta.easy();
+  sample.hard = scene.meta.hard();
+  sample.truth = eval::canonical(scene.truth());
+  sample.candidates = estimator::list_candidates(*conditions, drawn->prediction, drawn->reports,
+                                                 drawn->assigned, frame, rope_length_m);
+  return sample;
+}
+
+}  // namespace flowdlo::lab

@@ -1,0 +1,31 @@
+// Sample: the candidates of one synthetic frame, beside the truth.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "flow/sampler.hpp"
+#include "gate/candidate.hpp"
+#include "synth/synthetic_frame.hpp"
+#include "weights/variant.hpp"
+
+namespace flowdlo::lab {
+
+struct GateSample {
+  std::uint64_t index = 0;
+  std::string scenario;
+  bool easy = false;
+  bool hard = false;
+  Centerline truth{};                       ///< canonical direction
+  std::vector<gate::Candidate> candidates;  ///< as estimator::list_candidates lists them
+};
+
+/// Nothing where the engine finds no path or the device fails. Priors alone where `sampler` is
+/// null. `rope_length_m` 0: unknown.
+[[nodiscard]] std::optional<GateSample> measure(const synth::SyntheticFrame& scene,
+                                                flow::Sampler* sampler, int draws,
+                                                weights::PriorKind kind, double rope_length_m);
+
+}  // namespace flowdlo::lab

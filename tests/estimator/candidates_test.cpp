@@ -1,0 +1,94 @@
+#include "estimator/candidates.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <stdexcept>
+
+#include "geometry/polyline.hpp"
+#include "support/wave_frame.hpp"
+
+namespace flowdlo {
+namespace {
+
+class ListCandidates : public ::testing::Test {
+ protected:
+  [[nodiscard]] estimator::Conditions gathered() const {
+    Timings timings;
+    auto conditions = estimator::gather(frame_, 0, weights::PriorKind::kRefined, timings);
+    if (!conditions) throw std::runtime_error(conditions.error().message);
+    return *std::move(conditions);
+  }
+  /// Draws that repeat the prior, with the model's sigma.
+  [[nodiscard]] flow::Prediction draws(int count) const {
+    flow::Prediction prediction;
+    for (int i = 0; i < count; ++i) {
+      prediction.draws.push_back(conditions_.hypotheses.front().prior.nodes);
+      prediction.sigma_m.emplace_back().fill(0.02F);
+    }
+    return prediction;
+  }
+
+  testing::WaveFrame wave_;
+  Frame frame_ = wave_.frame();
+  estimator::Conditions conditions_ = gathered();
+};
+
+TEST_F(ListCandidates, PriorsComeFirstAndDrawsNameTheirHypothesis) {
+  conditions_.hypotheses.push_back(conditions_.hypotheses.front());
+  conditions_.hypotheses.back().score -= 2;
+  const auto listed = estimator::list_candidates(
+      conditions_, draws(2), {{.accepted = true}, {.accepted = true}}, {0, 1}, frame_, 0);
+  ASSERT_EQ(listed.size(), 4U);
+  EXPECT_EQ(listed[1].draw, -1);
+  EXPECT_DOUBLE_EQ(listed[1].behind, 2);
+  EXPECT_EQ(listed[2].draw, 0);
+  EXPECT_EQ(listed[2].hypothesis, 0);
+  EXPECT_EQ(listed[3].draw, 1);
+  EXPECT_EQ(listed[3].hypothesis, 1);
+  EXPECT_DOUBLE_EQ(listed[3].behind, 2);
+}
+
+TEST_F(ListCandidates, ImplausibleDrawsAreNone) {  // Eq. (3.31), (3.32)
+  const auto listed = estimator::list_candidates(
+      conditions_, draws(2), {{.accepted = false}, {.accepted = true}}, {0, 0}, frame_, 0);
+  ASSERT_EQ(listed.size(), 2U);
+  EXPECT_EQ(listed[1].draw, 1);
+}
+
+TEST_F(ListCandidates, EachHasTheSigmaOfWhoeverMadeIt) {
+  const auto listed =
+      estimator::list_candidates(conditions_, draws(1), {{.accepted = true}}, {0}, frame_, 0);
+  EXPECT_EQ(listed[0].sigma_m, conditions_.hypotheses.front().prior.sigma_m);
+  EXPECT_EQ(listed[1].sigma_m[7], 0.02F);
+}
+
+TEST_F(ListCandidates, WithoutAFourthHeadADrawHasItsPriorsSigma) {
+  auto prediction = draws(1);
+  prediction.sigma_m.clear();
+  const auto listed =
+      estimator::list_candidates(conditions_, prediction, {{.accepted = true}}, {0}, frame_, 0);
+  EXPECT_EQ(listed[1].sigma_m, listed[0].sigma_m);
+}
+
+TEST_F(ListCandidates, LengthCountsOnlyWhereItIsKnown) {
+  const auto length_m =
+      static_cast<double>(geometry::length(conditions_.hypotheses.front().prior.nodes));
+  const auto off = [&](double known_m) {
+    return estimator::list_candidates(conditions_, {}, {}, {}, frame_, known_m)[0].length_off;
+  };
+  EXPECT_EQ(off(0), 0);
+  EXPECT_NEAR(off(length_m), 0, 1e-5);
+  EXPECT_NEAR(off(2 * length_m), std::log(2.0), 1e-4);
+}
+
+TEST_F(ListCandidates, AGoodPriorLooksGood) {
+  const auto listed = estimator::list_candidates(conditions_, {}, {}, {}, frame_, 0);
+  ASSERT_EQ(listed.size(), conditions_.hypotheses.size());
+  EXPECT_GT(listed[0].radius_m, 0);
+  EXPECT_GT(listed[0].tube.mask_recall, 0.95F);
+  EXPECT_GT(listed[0].supported, 0.9F);
+}
+
+}  // namespace
+}  // namespace flowdlo

@@ -1,0 +1,234 @@
+#include "recording/bag_layout.hpp"
+
+#include <fmt/format.h>
+
+#include <cstdint>
+#include <cstring>
+#include <fstream>
+#include <map>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace flowdlo::recording {
+namespace {
+
+constexpr const char* kVersionLine = "#ROSBAG V2.0\n";
+constexpr std::uint64_t kMostHeaderBytes = 1U << 20U;
+constexpr std::uint64_t kMostIndexBytes = 1U << 28U;
+constexpr std::size_t kIndexEntryBytes = 12;  // time, offset
+
+// Values of the field "op".
+constexpr int kMessage = 2;
+constexpr int kFileHeader = 3;
+constexpr int kIndex = 4;
+constexpr int kChunk = 5;
+constexpr int kChunkInfo = 6;
+
+using Fields = std::map<std::string, std::string>;
+
+template <class Number>
+bool read_number(const std::string& bytes, std::size_t at, Number& number) {
+  if (at > bytes.size() || bytes.size() - at < sizeof(Number)) return false;
+  std::memcpy(&number, bytes.data() + at, sizeof(Number));  // bags are little-endian, as we are
+  return true;
+}
+
+// A field's number; false when it is missing or has another size.
+template <class Number>
+bool read_field(const Fields& fields, const char* name, Number& number) {
+  const auto found = fields.find(name);
+  return found != fields.end() && found->second.size() == sizeof(Number) &&
+         read_number(found->second, 0, number);
+}
+
+bool parse_fields(const std::string& header, Fields& fields) {
+  std::size_t at = 0;
+  while (at < header.size()) {
+    std::uint32_t length = 0;
+    if (!read_number(header, at, length) || length > header.size() - at - sizeof(length)) {
+      return false;
+    }
+    const std::string field = header.substr(at + sizeof(length), length);
+    const auto equals = field.find('=');
+    if (equals == std::string::npos) return false;
+    fields[field.substr(0, equals)] = field.substr(equals + 1);
+    at += sizeof(length) + length;
+  }
+  return true;
+}
+
+struct Record {
+  std::uint64_t begin = 0;
+  std::uint64_t data = 0;  ///< where its data begins
+  std::uint64_t end = 0;
+  int op = -1;
+  Fields fields;
+};
+
+// What is wrong, in words; empty: nothing.
+using Fault = std::string;
+
+class Walker {
+ public:
+  Walker(std::ifstream& stream, std::uint64_t size) : stream_(stream), size_(size) {}
+
+  Fault walk() {
+    std::uint64_t at = std::strlen(kVersionLine);
+    Record record;
+    if (auto fault = read_record(at, size_, record); !fault.empty()) return fault;
+    if (auto fault = take_file_header(record); !fault.empty()) return fault;
+    for (at = record.end; at < size_; at = record.end) {
+      if (auto fault = read_record(at, size_, record); !fault.empty()) return fault;
+      if (auto fault = take(record); !fault.empty()) return fault;
+      starts_index_ = starts_index_ || record.begin == index_begin_;
+    }
+    if (index_begin_ != size_ && !starts_index_) {
+      return fmt::format("no record begins at byte {}, where its index should", index_begin_);
+    }
+    return {};
+  }
+
+ private:
+  Fault read_record(std::uint64_t at, std::uint64_t limit, Record& record) {
+    record = {};
+    record.begin = at;
+    std::uint32_t length = 0;
+    const Fault cut = fmt::format("the record at byte {} runs over its end (cut off?)", at);
+    if (!read_length(at, limit, length) || length > kMostHeaderBytes) return cut;
+    std::string header;
+    if (!read_bytes(at + sizeof(length), limit, length, header)) return cut;
+    std::uint8_t op = 0;
+    if (!parse_fields(header, record.fields) || !read_field(record.fields, "op", op)) {
+      return fmt::format("the record at byte {} has a damaged header", at);
+    }
+    record.op = op;
+    at += sizeof(length) + length;
+    if (!read_length(at, limit, length)) return cut;
+    record.data = at + sizeof(length);
+    record.end = record.data + length;
+    return record.end <= limit ? Fault() : cut;
+  }
+
+  Fault take_file_header(const Record& record) {
+    if (record.op != kFileHeader || !read_field(record.fields, "index_pos", index_begin_)) {
+      return "its first record is no file header";
+    }
+    const auto encryptor = record.fields.find("encryptor");
+    if (encryptor != record.fields.end() && !encryptor->second.empty()) {
+      return "it is encrypted; write it again without";
+    }
+    if (index_begin_ == 0) return "it has no index: its recording was not closed";
+    return index_begin_ <= size_ ? Fault() : "its index lies beyond its end (cut off?)";
+  }
+
+  Fault take(const Record& record) {
+    switch (record.op) {
+      case kChunk:
+        return take_chunk(record);
+      case kIndex:
+        return take_index(record);
+      case kChunkInfo: {
+        std::uint64_t chunk = 0;
+        const bool known =
+            read_field(record.fields, "chunk_pos", chunk) && chunks_.count(chunk) > 0;
+        return known ? Fault()
+                     : fmt::format("the record at byte {} names a chunk that is not there",
+                                   record.begin);
+      }
+      default:
+        return {};
+    }
+  }
+
+  Fault take_chunk(const Record& record) {
+    const auto compression = record.fields.find("compression");
+    if (compression == record.fields.end() || !read_field(record.fields, "size", chunk_size_)) {
+      return fmt::format("the chunk at byte {} has a damaged header", record.begin);
+    }
+    chunks_.insert(record.begin);
+    chunk_plain_ = compression->second == "none";
+    messages_.clear();
+    if (!chunk_plain_) {
+      if (compression->second == "bz2" || compression->second == "lz4") return {};
+      return fmt::format("the chunk at byte {} is compressed as \"{}\", expected bz2 or lz4",
+                         record.begin, compression->second);
+    }
+    Record inner;
+    for (std::uint64_t at = record.data; at < record.end; at = inner.end) {
+      if (auto fault = read_record(at, record.end, inner); !fault.empty()) return fault;
+      if (inner.op == kMessage) messages_.insert(at - record.data);
+    }
+    return {};
+  }
+
+  Fault take_index(const Record& record) {
+    const Fault damaged = fmt::format("the index at byte {} is damaged", record.begin);
+    std::uint32_t count = 0;
+    std::string entries;
+    if (chunks_.empty() || !read_field(record.fields, "count", count) ||
+        record.end - record.data != count * kIndexEntryBytes ||
+        record.end - record.data > kMostIndexBytes ||
+        !read_bytes(record.data, record.end, record.end - record.data, entries)) {
+      return damaged;
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+      std::uint32_t offset = 0;
+      if (!read_number(entries, i * kIndexEntryBytes + sizeof(std::uint64_t), offset)) {
+        return damaged;
+      }
+      const bool there = chunk_plain_ ? messages_.count(offset) > 0 : offset < chunk_size_;
+      if (!there) return damaged;
+    }
+    return {};
+  }
+
+  bool read_length(std::uint64_t at, std::uint64_t limit, std::uint32_t& length) {
+    std::string bytes;
+    return read_bytes(at, limit, sizeof(length), bytes) && read_number(bytes, 0, length);
+  }
+
+  bool read_bytes(std::uint64_t at, std::uint64_t limit, std::uint64_t count, std::string& bytes) {
+    if (at > limit || limit - at < count) return false;
+    bytes.resize(static_cast<std::size_t>(count));
+    stream_.seekg(static_cast<std::streamoff>(at));
+    stream_.read(bytes.data(), static_cast<std::streamsize>(count));
+    return stream_.good();
+  }
+
+  std::ifstream& stream_;
+  std::uint64_t size_;
+  std::uint64_t index_begin_ = 0;
+  bool starts_index_ = false;
+  std::set<std::uint64_t> chunks_;    // where they begin
+  std::uint32_t chunk_size_ = 0;      // of the last chunk, uncompressed
+  bool chunk_plain_ = false;          // it is not compressed
+  std::set<std::uint64_t> messages_;  // of the last chunk when it is plain: offsets
+};
+
+}  // namespace
+
+Result<void> check_bag_layout(const std::filesystem::path& file) {
+  std::error_code failure;
+  const auto size = std::filesystem::file_size(file, failure);
+  std::ifstream stream(file, std::ios::binary);
+  if (failure || !stream) {
+    return Error{ErrorCode::kIo, file.string() + ": cannot be read; check path and permissions"};
+  }
+  std::string line(std::strlen(kVersionLine), '\0');
+  stream.read(line.data(), static_cast<std::streamsize>(line.size()));
+  if (!stream || line != kVersionLine) {
+    return Error{ErrorCode::kBadInput,
+                 fmt::format("{}: expected a ROS 1 bag (\"#ROSBAG V2.0\"), got something else; of "
+                             "an older version, make one with `rosbag fix`",
+                             file.string())};
+  }
+  const Fault fault = Walker(stream, size).walk();
+  if (fault.empty()) return {};
+  return Error{ErrorCode::kBadInput,
+               fmt::format("{}: expected a whole bag, but {}; `rosbag reindex` may save it",
+                           file.string(), fault)};
+}
+
+}  // namespace flowdlo::recording
