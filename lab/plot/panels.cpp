@@ -59,7 +59,7 @@ void draw_line(cv::Mat& page, const Line& line, const cv::Rect& area, const Pane
   for (const cv::Point& point : points) {
     cv::circle(page, point, 3, colour, cv::FILLED, cv::LINE_AA);
   }
-  draw_text(page, fmt::format("{:.3g}", line.y.back()), points.back() + cv::Point(-34, -8), colour);
+  draw_text(page, fmt::format("{:.4g}", line.y.back()), points.back() + cv::Point(-34, -8), colour);
 }
 
 void draw_panel(cv::Mat& page, const Panel& panel, const cv::Rect& box) {
@@ -77,7 +77,7 @@ void draw_panel(cv::Mat& page, const Panel& panel, const cv::Rect& box) {
   cv::rectangle(page, area, {200, 200, 200});
   draw_text(page, panel.title, {area.x, box.y + 22}, ink);
   const auto shown = [](double value, bool logarithmic) {
-    return fmt::format("{:.3g}", logarithmic ? std::pow(10.0, value) : value);
+    return fmt::format("{:.4g}", logarithmic ? std::pow(10.0, value) : value);
   };
   draw_text(page, shown(y.high, panel.logarithmic), {box.x + 8, area.y + 10}, ink);
   draw_text(page, shown(y.low, panel.logarithmic), {box.x + 8, area.y + area.height}, ink);
@@ -86,8 +86,8 @@ void draw_panel(cv::Mat& page, const Panel& panel, const cv::Rect& box) {
   };
   const int below = area.y + area.height + 18;
   draw_text(page, whole(x.low, panel.logarithmic_x), {area.x, below}, ink);
-  draw_text(page, panel.x_name + " " + whole(x.high, panel.logarithmic_x),
-            {area.x + area.width - 70, below}, ink);
+  const std::string end = panel.x_name + " " + whole(x.high, panel.logarithmic_x);
+  draw_text(page, end, {area.x + area.width - 9 * static_cast<int>(end.size()), below}, ink);
   for (std::size_t i = 0; i < panel.lines.size(); ++i) {
     const cv::Scalar& colour = colours()[i % colours().size()];
     draw_line(page, panel.lines[i], area, panel, x, y, colour);
