@@ -12,7 +12,7 @@
 namespace flowdlo::vulkan {
 namespace {
 
-constexpr int kRows = 4 * ops::kRowsPerDraw;
+constexpr int kDraws = 4;
 constexpr int kSamples = 97;  // entries of each result that are looked at
 constexpr double kLargest = 1e-4;
 constexpr double kLargestOfMatrix = 5e-3;  // x has the 11 bits of f16
@@ -53,21 +53,21 @@ struct Recorded {
   ops::Tensor copied;
 };
 
-Recorded record(Program& program, const Layer& layer, std::uint32_t seed) {
-  Recorded recorded{.x = numbers(kRows, layer.in, seed, 1.0F),
+Recorded record(Program& program, const Layer& layer, int rows, std::uint32_t seed) {
+  Recorded recorded{.x = numbers(rows, layer.in, seed, 1.0F),
                     .weight = numbers(layer.out, layer.in, seed + 1, layer.fine),
                     .bias = numbers(1, layer.out, seed + 2, 1.0F),
-                    .residual = numbers(kRows, layer.out, seed + 3, 1.0F),
-                    .y = program.scratch("trial.y", kRows, layer.out),
-                    .copied = program.output("trial.result", kRows, layer.out)};
-  const auto x = program.constant("trial.x", kRows, layer.in, recorded.x);
+                    .residual = numbers(rows, layer.out, seed + 3, 1.0F),
+                    .y = program.scratch("trial.y", rows, layer.out),
+                    .copied = program.output("trial.result", rows, layer.out)};
+  const auto x = program.constant("trial.x", rows, layer.in, recorded.x);
   ops::Linear op{
       .x = x,
       .layer = program.layer("trial", layer.out, layer.in, recorded.weight, recorded.bias),
       .y = recorded.y,
       .activation = layer.activation};
   if (layer.residual) {
-    op.residual = program.constant("trial.residual", kRows, layer.out, recorded.residual);
+    op.residual = program.constant("trial.residual", rows, layer.out, recorded.residual);
   }
   program.record(op);
   return recorded;
@@ -88,10 +88,11 @@ double expected_at(const Layer& layer, const Recorded& recorded, int row, int co
 
 /// Largest difference to double precision, of the largest entry; infinite where one is no number.
 double difference(const Layer& layer, const Recorded& recorded, const std::vector<float>& got) {
+  const int rows = recorded.y.rows;
   double largest = 0;
   double worst = 0;
   for (int sample = 0; sample < kSamples; ++sample) {
-    const int row = sample * 131 % kRows;
+    const int row = sample * 131 % rows;
     const int column = sample * 389 % layer.out;
     const double expected = expected_at(layer, recorded, row, column);
     const auto entry = static_cast<std::size_t>(row) * static_cast<std::size_t>(layer.out);
@@ -106,29 +107,32 @@ double difference(const Layer& layer, const Recorded& recorded, const std::vecto
 }  // namespace
 
 Result<double> try_gemm(const std::shared_ptr<Device>& device, const GemmChoice& choice,
-                        const Disturb& disturb) {
-  ProgramOptions options;
-  options.gemm = choice;
-  Program program(device, options);
+                        const ProgramOptions& options) {
+  const bool is_cpu = device->facts().report.kind == DeviceKind::kCpu;
+  const int rows = (is_cpu ? 1 : kDraws) * ops::kRowsPerDraw;
+  ProgramOptions forced;
+  forced.timeout_ms = options.timeout_ms;
+  forced.gemm = choice;
+  Program program(device, forced);
   program.stage("gemm");
   std::vector<Recorded> recorded;
   for (std::size_t i = 0; i < kLayers.size(); ++i) {
-    recorded.push_back(record(program, kLayers[i], static_cast<std::uint32_t>(10 * i)));
+    recorded.push_back(record(program, kLayers[i], rows, static_cast<std::uint32_t>(10 * i)));
   }
   program.stage("results");
   for (const Recorded& layer : recorded) {
     program.record(ops::Copy{.from = layer.y, .to = layer.copied});
   }
   if (const auto built = program.build(); !built) return built.error();
-  for (int i = 0; i < 2; ++i) {  // the first run is slower
+  for (int runs = is_cpu ? 1 : 2; runs > 0; --runs) {  // the first is slower
     if (const auto done = program.run(); !done) return done.error();
   }
   const double most = choice.family == GemmFamily::kMatrix ? kLargestOfMatrix : kLargest;
   for (std::size_t i = 0; i < kLayers.size(); ++i) {
-    std::vector<float> got(static_cast<std::size_t>(kRows) *
+    std::vector<float> got(static_cast<std::size_t>(rows) *
                            static_cast<std::size_t>(kLayers[i].out));
     program.read(recorded[i].copied, got);
-    if (disturb) disturb(choice, got);
+    if (options.disturb) options.disturb(choice, got);
     const double off = difference(kLayers[i], recorded[i], got);
     if (off > most) {
       return Error{ErrorCode::kNoDevice,

@@ -2,22 +2,17 @@
 // exist.
 #pragma once
 
-#include <functional>
 #include <memory>
-#include <span>
 
-#include "vulkan/device.hpp"
+#include "vulkan/backend.hpp"
 #include "vulkan/gemm_choice.hpp"
 
 namespace flowdlo::vulkan {
 
-/// Spoils results before they are looked at: how tests make a family fail.
-using Disturb = std::function<void(const GemmChoice&, std::span<float>)>;
-
-/// Milliseconds that a layer of each kind takes together, for four draws. Fails where they cannot
-/// run, or where a sum differs from the one in double precision by more than f32 (kMatrix: f16)
-/// explains.
+/// Milliseconds that a layer of each kind takes together, for four draws (CPU drivers, which nobody
+/// compares: one). Fails where they cannot run within options.timeout_ms, or where a sum differs
+/// from the one in double precision by more than f32 (kMatrix: f16) explains.
 [[nodiscard]] Result<double> try_gemm(const std::shared_ptr<Device>& device,
-                                      const GemmChoice& choice, const Disturb& disturb);
+                                      const GemmChoice& choice, const ProgramOptions& options);
 
 }  // namespace flowdlo::vulkan

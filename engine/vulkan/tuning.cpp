@@ -44,14 +44,15 @@ void store_choice(const Device& device, const std::filesystem::path& folder,
 }
 
 Result<GemmChoice> best_of(const std::shared_ptr<Device>& device,
-                           const std::vector<GemmChoice>& candidates, const Disturb& disturb) {
+                           const std::vector<GemmChoice>& candidates,
+                           const ProgramOptions& options) {
   const bool is_cpu = device->facts().report.kind == DeviceKind::kCpu;
   const auto start = Clock::now();
   std::optional<GemmChoice> best;
   double best_ms = 0;
   std::string faults;
   for (const GemmChoice& candidate : candidates) {
-    const auto time_ms = try_gemm(device, candidate, disturb);
+    const auto time_ms = try_gemm(device, candidate, options);
     if (!time_ms) {
       faults += fmt::format("{}{}", faults.empty() ? "" : "; ", time_ms.error().message);
       if (time_ms.error().code == ErrorCode::kDeviceLost) return time_ms.error();
@@ -82,7 +83,7 @@ Result<GemmChoice> choose_gemm(const std::shared_ptr<Device>& device,
   const bool keeps = !options.pipeline_cache.empty();
   auto stored = keeps ? stored_choice(*device, options.pipeline_cache, candidates) : std::nullopt;
   if (!stored) {
-    const auto best = best_of(device, candidates, options.disturb);
+    const auto best = best_of(device, candidates, options);
     if (!best) return best.error();
     stored = *best;
     if (keeps) store_choice(*device, options.pipeline_cache, *best);

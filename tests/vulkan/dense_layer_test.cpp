@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <bit>
+
 namespace flowdlo::vulkan {
 namespace {
 
@@ -21,6 +23,22 @@ TEST(PackPanels, PutsFourConsecutiveInputsOfAColumnIntoATexelAndColumnsSideBySid
   EXPECT_EQ(at(0, 0, 1, 0), weight[16]);
   EXPECT_EQ(at(0, 2, 5, 1), weight[5 * 16 + 9]);
   EXPECT_EQ(at(1, 3, 7, 2), weight[(256 + 7) * 16 + 14]);
+}
+
+TEST(PackHalves, PutsTwoValuesIntoThePlaceOfOne) {
+  const std::vector<float> weight{1.0F, -2.0F, 0.5F, 65504.0F};
+
+  const std::vector<float> packed = pack_halves(weight);
+
+  ASSERT_EQ(packed.size(), 2U);
+  EXPECT_EQ(std::bit_cast<std::uint32_t>(packed[0]), 0xC0003C00U);  // the first is the lower
+  EXPECT_EQ(std::bit_cast<std::uint32_t>(packed[1]), 0x7BFF3800U);
+}
+
+TEST(AreHalves, TellsWhetherAnythingWouldBeLost) {
+  EXPECT_TRUE(are_halves(std::vector<float>{0.25F, -1025.0F, 0.0F}));
+  EXPECT_FALSE(are_halves(std::vector<float>{0.25F, 0.1F}));
+  EXPECT_FALSE(are_halves(std::vector<float>{1e6F})) << "beyond f16";
 }
 
 }  // namespace

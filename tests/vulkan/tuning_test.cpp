@@ -34,7 +34,7 @@ class Tuning : public ::testing::Test {
 
   /// Chooses on a fresh device, and counts the results that were looked at.
   Result<GemmChoice> choose(const std::function<bool(const GemmChoice&)>& broken = {}) {
-    ProgramOptions options{.pipeline_cache = folder_};
+    ProgramOptions options{.timeout_ms = 60000, .pipeline_cache = folder_};
     options.disturb = [&](const GemmChoice& choice, std::span<float> values) {
       ++looked_at_;
       if (broken && broken(choice)) values[0] += 1000.0F;
@@ -69,10 +69,10 @@ TEST_F(Tuning, IsRememberedBetweenProcesses) {
 TEST_F(Tuning, IsRememberedByTheDeviceWithoutAFolder) {
   FLOWDLO_NEEDS_DEVICE();
   const auto device = fresh_device();
-  const auto first = choose_gemm(device, {});
+  const auto first = choose_gemm(device, {.timeout_ms = 60000, .pipeline_cache = {}});
   ASSERT_TRUE(first);
   const std::uint64_t submits = submit_count(*device);
-  const auto second = choose_gemm(device, {});
+  const auto second = choose_gemm(device, {.timeout_ms = 60000, .pipeline_cache = {}});
   ASSERT_TRUE(second);
   EXPECT_EQ(*second, *first);
   EXPECT_EQ(submit_count(*device), submits);
@@ -92,7 +92,7 @@ TEST_F(Tuning, StepsDownFromAFamilyThatReturnsWrongNumbers) {
 
 TEST_F(Tuning, WithoutAnyRightFamilyIsAnErrorThatBuildReports) {
   FLOWDLO_NEEDS_DEVICE();
-  ProgramOptions options{.pipeline_cache = folder_};
+  ProgramOptions options{.timeout_ms = 60000, .pipeline_cache = folder_};
   options.disturb = [](const GemmChoice&, std::span<float> values) { values[0] = NAN; };
   Trial trial(create_program(fresh_device(), options));
   const auto x = trial->input("x", 64, 256);
