@@ -1,0 +1,190 @@
+#include "path/stations.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+
+#include "path/cover.hpp"
+#include "path/midline.hpp"
+
+namespace flowdlo::path {
+namespace {
+
+using Eigen::Vector2f;
+using Points = std::vector<Vector2f>;
+
+constexpr int kCalmSamples = 4;
+constexpr float kMostScan = 2.2F;    // usual widths to each side
+constexpr float kNearerMost = 2.5F;  // times nearer or farther than what is usual: else no rope
+constexpr float kRunWidths = 3.0F;   // a narrow part is at least this long,
+constexpr float kHalfLeast = 0.42F;  // between these shares of the usual width,
+constexpr float kHalfMost = 0.72F;
+constexpr float kRunSpread = 1.25F;     // and even
+constexpr float kSingleShare = 1.3F;    // of the narrow parts' width: one strand up to this
+constexpr float kFewestNarrow = 0.04F;  // share of the stations that are one strand
+
+// Whether the mask was cut where it ends, at `p` and `aside`.
+bool seam_at(const Region& region, const Vector2f& p, const Vector2f& aside) {
+  const Vector2f step = aside.normalized();
+  return lit(region.seams, p + aside + 0.5F * step) || lit(region.seams, p + aside + 1.2F * step);
+}
+
+Line measured(const Segment& segment, const Region& region, float width_px) {
+  const cv::Mat& mask = region.mask;
+  const int half = std::clamp(static_cast<int>(std::lround(0.5F * width_px)), 2, 12);
+  const Points points = smoothed(segment.points_px, half);
+  const int last = static_cast<int>(points.size()) - 1;
+  const float most = kMostScan * width_px + 2;
+  Line line;
+  for (int i = 0; i <= last; ++i) {
+    const Vector2f along = points[std::min(i + half, last)] - points[std::max(i - half, 0)];
+    Station station{points[i]};
+    if (along.norm() > 0) {
+      station.normal = Vector2f(-along.y(), along.x()).normalized();
+      const float left = reach(mask, points[i], station.normal, most);
+      const float right = reach(mask, points[i], -station.normal, most);
+      station.middle_px += 0.5F * (left - right) * station.normal;
+      station.width_px = left + right;
+      station.seamed =
+          !region.seams.empty() && (seam_at(region, points[i], left * station.normal) ||
+                                    seam_at(region, points[i], -right * station.normal));
+    }
+    line.push_back(station);
+  }
+  return line;
+}
+
+// Running medians over 2 `half` + 1 values or a sample of them; zeros do not count.
+std::vector<float> calmed(const std::vector<float>& values, int half) {
+  std::vector<float> result;
+  std::vector<float> window;
+  const int count = static_cast<int>(values.size());
+  const int step = std::max(1, half / kCalmSamples);
+  for (int i = 0; i < count; ++i) {
+    window.clear();
+    for (int k = std::max(0, i - half); k <= std::min(count - 1, i + half); k += step) {
+      if (values[k] > 0) window.push_back(values[k]);
+    }
+    result.push_back(window.empty() ? 0 : quantile(window, 0.5F));
+  }
+  return result;
+}
+
+// Whether an occluder ends the mask to a side of the station.
+bool hidden(const Station& station, const Cover& cover, float depth_m, float width_px) {
+  if (depth_m <= 0) return false;
+  const float most = kMostScan * width_px + 2;
+  return cover.beyond(station.middle_px, station.normal, depth_m, most) == Sight::kHidden ||
+         cover.beyond(station.middle_px, -station.normal, depth_m, most) == Sight::kHidden;
+}
+
+// Frays and single pixels leave the widths, noise and holes the depths.
+void calm(std::vector<Line>& lines, const Cover& cover, float width_px) {
+  const int half = std::max(2, static_cast<int>(0.75F * width_px));
+  const int step = std::max(1, half / kCalmSamples);
+  std::vector<std::vector<float>> depths;
+  std::vector<float> all;
+  for (Line& line : lines) {
+    std::vector<float> widths;
+    std::vector<float> depth;
+    for (const Station& station : line) {
+      widths.push_back(station.width_px);
+      depth.push_back(cover.rope_depth(station.middle_px));
+    }
+    widths = calmed(widths, half);
+    depth = calmed(depth, 4 * half);
+    for (std::size_t i = 0; i < line.size(); ++i) {
+      line[i].width_px = widths[i];
+      if (depth[i] > 0) all.push_back(depth[i]);
+    }
+    depths.push_back(std::move(depth));
+  }
+  const float usual_m = all.empty() ? 0 : quantile(all, 0.5F);
+  for (std::size_t l = 0; l < lines.size(); ++l) {
+    float before = usual_m;
+    for (std::size_t i = 0; i < lines[l].size(); ++i) {
+      Station& station = lines[l][i];
+      if (depths[l][i] > 0) before = depths[l][i];
+      if (usual_m > 0) {
+        station.nearer = std::clamp(usual_m / before, 1 / kNearerMost, kNearerMost);
+      }
+      station.size_px = station.width_px / station.nearer;
+      station.whole = i % static_cast<std::size_t>(step) == 0
+                          ? !hidden(station, cover, before, width_px)
+                          : lines[l][i - 1].whole;
+    }
+  }
+}
+
+// The least size that a line keeps for some way; `none` where no line is long enough.
+float least_kept(const std::vector<Line>& lines, float width_px, float none) {
+  float least = none;
+  const auto length = static_cast<std::size_t>(std::max(6.0F, kRunWidths * width_px));
+  const std::size_t step = std::max<std::size_t>(1, length / 6);
+  for (const Line& line : lines) {
+    for (std::size_t i = 0; i + length <= line.size(); i += step) {
+      std::vector<float> sizes;
+      for (std::size_t k = i; k < i + length && line[k].whole && !line[k].seamed; ++k) {
+        sizes.push_back(line[k].size_px);
+      }
+      if (sizes.size() < length) continue;
+      const float most = quantile(sizes, 0.85F);
+      if (most <= kRunSpread * quantile(sizes, 0.15F)) least = std::min(least, most);
+    }
+  }
+  return least;
+}
+
+}  // namespace
+
+bool lit(const cv::Mat& mask, const Vector2f& p) {
+  const auto u = static_cast<int>(std::lround(p.x()));
+  const auto v = static_cast<int>(std::lround(p.y()));
+  return u >= 0 && v >= 0 && u < mask.cols && v < mask.rows && mask.at<std::uint8_t>(v, u) != 0;
+}
+
+float reach(const cv::Mat& mask, const Vector2f& p, const Vector2f& direction, float most_px) {
+  float walked = 1;
+  while (walked < most_px && lit(mask, p + walked * direction)) walked += 1;
+  walked -= 1 - kScanStepPx;
+  while (walked < most_px && lit(mask, p + walked * direction)) walked += kScanStepPx;
+  return walked - 0.5F * kScanStepPx;
+}
+
+float quantile(std::vector<float> values, float share) {
+  const auto at = static_cast<std::ptrdiff_t>(share * static_cast<float>(values.size() - 1));
+  std::nth_element(values.begin(), values.begin() + at, values.end());
+  return values[static_cast<std::size_t>(at)];
+}
+
+float single_size(const std::vector<Line>& lines, float usual_px) {
+  // Twice: at first the usual width may be that of two strands.
+  float narrow = std::min(usual_px, least_kept(lines, usual_px, usual_px));
+  narrow = std::min(narrow, least_kept(lines, 0.5F * usual_px, narrow));
+  if (narrow > kHalfMost * usual_px || narrow < kHalfLeast * usual_px) narrow = usual_px;
+  std::vector<float> single;
+  std::size_t all = 0;
+  for (const Line& line : lines) {
+    all += line.size();
+    for (const Station& station : line) {
+      if (station.whole && !station.seamed && station.size_px <= kSingleShare * narrow) {
+        single.push_back(station.size_px);
+      }
+    }
+  }
+  if (static_cast<float>(single.size()) < kFewestNarrow * static_cast<float>(all)) return 0;
+  return single.empty() ? 0 : quantile(single, 0.5F);
+}
+
+std::vector<Line> stations_of(const Graph& graph, const Region& region, const Frame& frame) {
+  std::vector<Line> lines;
+  for (const Segment& segment : graph.segments) {
+    lines.emplace_back();
+    if (segment.alive) lines.back() = measured(segment, region, graph.width_px);
+  }
+  calm(lines, Cover(region, frame, graph.width_px), graph.width_px);
+  return lines;
+}
+
+}  // namespace flowdlo::path

@@ -1,0 +1,51 @@
+// Stations: how wide the mask is across the lines of the graph, and how wide one strand is.
+#pragma once
+
+#include <Eigen/Core>
+#include <opencv2/core.hpp>
+#include <vector>
+
+#include "path/graph.hpp"
+#include "path/region.hpp"
+
+namespace flowdlo::path {
+
+/// How finely `reach` walks.
+inline constexpr float kScanStepPx = 0.25F;
+
+/// Across a line at one of its points.
+struct Station {
+  Eigen::Vector2f middle_px{0, 0};  ///< of the mask
+  Eigen::Vector2f normal{0, 0};     ///< to its left
+  float width_px = 0;
+  float nearer = 1;     ///< how many times larger things look than where the rope usually is
+  float size_px = 0;    ///< the width there
+  bool whole = true;    ///< no occluder hides a side
+  bool seamed = false;  ///< nor the depth parts it there from a strand that may hide it
+
+  [[nodiscard]] Eigen::Vector2f edge(float side) const {
+    return middle_px + 0.5F * side * width_px * normal;
+  }
+};
+
+/// One station for each of a segment's points; empty where the segment is gone.
+using Line = std::vector<Station>;
+
+/// Of the graph's segments, in their order.
+[[nodiscard]] std::vector<Line> stations_of(const Graph& graph, const Region& region,
+                                            const Frame& frame);
+
+/// The size of one strand; 0 where nothing tells it. `usual_px` is the rope's usual width.
+[[nodiscard]] float single_size(const std::vector<Line>& lines, float usual_px);
+
+/// How far `mask` reaches from `p` along the unit vector `direction`, at most `most_px`.
+[[nodiscard]] float reach(const cv::Mat& mask, const Eigen::Vector2f& p,
+                          const Eigen::Vector2f& direction, float most_px);
+
+/// Whether the pixel at `p` is set.
+[[nodiscard]] bool lit(const cv::Mat& mask, const Eigen::Vector2f& p);
+
+/// The value that `share` of `values` (not empty) do not exceed.
+[[nodiscard]] float quantile(std::vector<float> values, float share);
+
+}  // namespace flowdlo::path
