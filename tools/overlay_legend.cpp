@@ -24,15 +24,21 @@ struct Legend {
   std::vector<Swatch> swatches;  ///< one line, below the others
 };
 
+/// Where the curve is from; a prior is chosen for want of a plausible draw, or over one.
+std::string source_of(const Estimate& estimate) {
+  if (estimate.source == Source::kPrediction) {
+    return fmt::format("prediction (draw {} of {})", estimate.draw + 1, estimate.draws.size());
+  }
+  const bool any = std::any_of(estimate.draws.begin(), estimate.draws.end(),
+                               [](const DrawReport& draw) { return draw.accepted; });
+  return any ? "prior (likelier than the draws)" : "prior (no draw passed the gate)";
+}
+
 Legend legend_of(const Estimate& estimate, const std::string& device) {
   const auto supported = std::count(estimate.support.begin(), estimate.support.end(), 1);
-  const std::string source =
-      estimate.source == Source::kPrediction
-          ? fmt::format("prediction (draw {} of {})", estimate.draw + 1, estimate.draws.size())
-          : std::string("prior (no draw passed the gate)");
   std::string shown_device = device.substr(0, kLongestDevice);
   if (shown_device.size() < device.size()) shown_device += "...";
-  return {{source,
+  return {{source_of(estimate),
            fmt::format("confidence {:.2f}   mask agreement {:.2f}", estimate.confidence,
                        estimate.mask_agreement),
            fmt::format("{}   {:.0f} ms", shown_device, estimate.timings.total_ms)},
