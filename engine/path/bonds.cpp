@@ -108,6 +108,9 @@ class Builder {
       bridges_.try_emplace({bridge.node[0], bridge.node[1]}, &bridge);
       bridges_.try_emplace({bridge.node[1], bridge.node[0]}, &bridge);
     }
+    for (int id = 0; id < static_cast<int>(bonds_.size()); ++id) {
+      if (!strands_.end(id).tip()) met_[strands_.end(id).crossing].push_back(id);
+    }
   }
 
   std::vector<std::vector<Bond>> run() {
@@ -130,11 +133,7 @@ class Builder {
   }
 
   void through_crossings() {
-    std::map<int, std::vector<int>> met;  // crossing to the ends there
-    for (int id = 0; id < static_cast<int>(bonds_.size()); ++id) {
-      if (!strands_.end(id).tip()) met[strands_.end(id).crossing].push_back(id);
-    }
-    for (const auto& [crossing, ends] : met) {
+    for (const auto& [crossing, ends] : met_) {
       for (std::size_t i = 0; i < ends.size(); ++i) {
         const std::size_t last = std::min(ends.size(), i + 1 + kMostAtCrossing);
         for (std::size_t j = i + 1; j < last; ++j) {
@@ -154,10 +153,6 @@ class Builder {
   // Where crossings are crowded, two strands may lie on or beside each other for a while and look
   // like one strand between two crossings. One of them takes it, the other passes along it.
   void along_shared_strands() {
-    std::map<int, std::vector<int>> met;
-    for (int id = 0; id < static_cast<int>(bonds_.size()); ++id) {
-      if (!strands_.end(id).tip()) met[strands_.end(id).crossing].push_back(id);
-    }
     for (int s = 0; s < static_cast<int>(strands_.list.size()); ++s) {
       const StrandEnd& front = strands_.end(2 * s);
       const StrandEnd& back = strands_.end(2 * s + 1);
@@ -165,8 +160,8 @@ class Builder {
       const float most = kSharedWidths * strands_.scale_px;
       const bool brief =
           (front.node_px - back.node_px).norm() <= most && strands_.list[s].covers_px <= most;
-      for (const int from : met[front.crossing]) {
-        for (const int to : met[back.crossing]) {
+      for (const int from : met_[front.crossing]) {
+        for (const int to : met_[back.crossing]) {
           if (brief || strands_.list[s].doubled || behind(s, from, to)) pass_along(s, from, to);
         }
       }
@@ -261,6 +256,7 @@ class Builder {
   Cover cover_;
   std::vector<std::vector<Bond>> bonds_;
   std::map<std::pair<int, int>, const Bridge*> bridges_;  // between two nodes
+  std::map<int, std::vector<int>> met_;                   // crossing to the ends there
 };
 
 }  // namespace

@@ -20,12 +20,7 @@ constexpr float kProbeStepPx = 1.5F;
 Cover::Cover(const Region& region, const Frame& frame, float width_px)
     : region_(region), frame_(frame), width_px_(width_px) {}
 
-bool Cover::masked(const Vector2f& p) const {
-  const auto u = static_cast<int>(std::lround(p.x()));
-  const auto v = static_cast<int>(std::lround(p.y()));
-  const cv::Mat& mask = region_.mask;
-  return u >= 0 && v >= 0 && u < mask.cols && v < mask.rows && mask.at<std::uint8_t>(v, u) != 0;
-}
+bool Cover::masked(const Vector2f& p) const { return lit(region_.mask, p); }
 
 float Cover::depth_around(const Vector2f& p, bool on_mask) const {
   std::array<float, 5> values{};

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "geometry/quantile.hpp"
 #include "path/midline.hpp"
 #include "path/stations.hpp"
 
@@ -15,6 +16,7 @@ namespace flowdlo::path {
 namespace {
 
 using Eigen::Vector2f;
+using geometry::quantile;
 using Points = std::vector<Vector2f>;
 
 constexpr float kDoubleLeast = 1.25F;  // widths: two strands from this
@@ -65,7 +67,8 @@ class Cutter {
       const float width_px = size_px_ * line[(first + last) / 2].nearer;
       clear_ = mean > kClearMean;
       if (length >= std::max(kShortest * width_px, kShortestPx) && mean < kMeanMost &&
-          mean > (anchored(segment, line, first, last - 1) ? kAslantLeast : kMeanLeast)) {
+          (mean > kMeanLeast ||
+           (mean > kAslantLeast && anchored(segment, line, first, last - 1)))) {
         draw(segment, line, first, last - 1);
       }
       first = last;
@@ -98,12 +101,12 @@ class Cutter {
     const float ratio = quantile(sizes, 0.5F) / branch_px;
     if (ratio < kForkedLeast || ratio > kForkedMost) return;
     if (quantile(sizes, 0.85F) > kForkedSpread * quantile(sizes, 0.15F)) return;
-    clear_ = ratio > kClearMean;
-    const float usual_px = std::exchange(size_px_, branch_px);
-    const std::size_t had = found_.size();
-    draw(segment, line, static_cast<int>(trim), static_cast<int>(line.size() - trim) - 1);
-    size_px_ = usual_px;
-    if (found_.size() > had) narrowest_px_ = std::min(narrowest_px_, branch_px);
+    Cutter narrow(graph_, mask_, branch_px);
+    narrow.clear_ = ratio > kClearMean;
+    narrow.draw(segment, line, static_cast<int>(trim), static_cast<int>(line.size() - trim) - 1);
+    if (narrow.found_.empty()) return;
+    found_.push_back(std::move(narrow.found_.front()));
+    narrowest_px_ = std::min(narrowest_px_, branch_px);
   }
 
   [[nodiscard]] const std::vector<Points>& found() const { return found_; }
@@ -131,12 +134,17 @@ class Cutter {
     return !segment.ring() && graph_.nodes[segment.node[side]].ends.size() == 1;
   }
 
+  // What comes before a stretch, seen from it, and what follows.
+  static std::pair<Line, Line> around(const Line& line, int first, int last) {
+    Line before(line.begin(), line.begin() + first);
+    std::reverse(before.begin(), before.end());
+    return {std::move(before), Line(line.begin() + last + 1, line.end())};
+  }
+
   // Whether both ends of a stretch show where a second strand comes or goes: a fork, or a step.
   [[nodiscard]] bool anchored(const Segment& segment, const Line& line, int first, int last) const {
     const float width_px = size_px_ * line[(first + last) / 2].nearer;
-    const Line after(line.begin() + last + 1, line.end());
-    Line before(line.begin(), line.begin() + first);
-    std::reverse(before.begin(), before.end());
+    const auto [before, after] = around(line, first, last);
     return (forks(segment, 0) || step(before, width_px) != nullptr) &&
            (forks(segment, 1) || step(after, width_px) != nullptr);
   }
@@ -162,9 +170,7 @@ class Cutter {
     Points points;
     for (int i = first; i <= last; ++i) points.push_back(line[i].middle_px);
     points = smoothed(std::move(points), std::max(1, static_cast<int>(0.5F * width_px)));
-    const Line after(line.begin() + last + 1, line.end());
-    Line before(line.begin(), line.begin() + first);
-    std::reverse(before.begin(), before.end());
+    const auto [before, after] = around(line, first, last);
     const bool e1 = end_at(points, after, at_tip(segment, 1)) || part_at(points, segment, 1);
     std::reverse(points.begin(), points.end());
     const bool e2 = end_at(points, before, at_tip(segment, 0)) || part_at(points, segment, 0);

@@ -214,6 +214,12 @@ bool fill_highlights(cv::Mat& mask, float width) {
 
 }  // namespace
 
+bool lit(const cv::Mat& mask, const Eigen::Vector2f& p) {
+  const auto u = static_cast<int>(std::lround(p.x()));
+  const auto v = static_cast<int>(std::lround(p.y()));
+  return u >= 0 && v >= 0 && u < mask.cols && v < mask.rows && mask.at<std::uint8_t>(v, u) != 0;
+}
+
 Region cut(const Region& region, const std::vector<std::vector<Eigen::Vector2f>>& lines) {
   Region result = region;
   const auto pixel = [](const Eigen::Vector2f& p) {

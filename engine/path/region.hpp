@@ -23,6 +23,9 @@ struct Region {
 /// odd widths, 2 d for even ones; between the two here.
 [[nodiscard]] inline float width_at(float distance_px) { return 2.0F * distance_px - 0.5F; }
 
+/// Whether the pixel of `mask` nearest to `p` is set; false outside.
+[[nodiscard]] bool lit(const cv::Mat& mask, const Eigen::Vector2f& p);
+
 /// Crops and cleans the mask. Fails with kNoPath when it is empty or holds specks only.
 [[nodiscard]] Result<Region> clean(const Frame& frame);
 

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "geometry/quantile.hpp"
 #include "path/cover.hpp"
 #include "path/midline.hpp"
 
@@ -12,6 +13,7 @@ namespace flowdlo::path {
 namespace {
 
 using Eigen::Vector2f;
+using geometry::quantile;
 using Points = std::vector<Vector2f>;
 
 constexpr int kCalmSamples = 4;
@@ -138,24 +140,12 @@ float least_kept(const std::vector<Line>& lines, float width_px, float none) {
 
 }  // namespace
 
-bool lit(const cv::Mat& mask, const Vector2f& p) {
-  const auto u = static_cast<int>(std::lround(p.x()));
-  const auto v = static_cast<int>(std::lround(p.y()));
-  return u >= 0 && v >= 0 && u < mask.cols && v < mask.rows && mask.at<std::uint8_t>(v, u) != 0;
-}
-
 float reach(const cv::Mat& mask, const Vector2f& p, const Vector2f& direction, float most_px) {
   float walked = 1;
   while (walked < most_px && lit(mask, p + walked * direction)) walked += 1;
   walked -= 1 - kScanStepPx;
   while (walked < most_px && lit(mask, p + walked * direction)) walked += kScanStepPx;
   return walked - 0.5F * kScanStepPx;
-}
-
-float quantile(std::vector<float> values, float share) {
-  const auto at = static_cast<std::ptrdiff_t>(share * static_cast<float>(values.size() - 1));
-  std::nth_element(values.begin(), values.begin() + at, values.end());
-  return values[static_cast<std::size_t>(at)];
 }
 
 float single_size(const std::vector<Line>& lines, float usual_px) {

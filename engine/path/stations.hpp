@@ -42,10 +42,4 @@ using Line = std::vector<Station>;
 [[nodiscard]] float reach(const cv::Mat& mask, const Eigen::Vector2f& p,
                           const Eigen::Vector2f& direction, float most_px);
 
-/// Whether the pixel at `p` is set.
-[[nodiscard]] bool lit(const cv::Mat& mask, const Eigen::Vector2f& p);
-
-/// The value that `share` of `values` (not empty) do not exceed.
-[[nodiscard]] float quantile(std::vector<float> values, float share);
-
 }  // namespace flowdlo::path

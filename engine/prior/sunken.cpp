@@ -7,8 +7,12 @@
 #include <optional>
 #include <vector>
 
+#include "geometry/quantile.hpp"
+
 namespace flowdlo::prior {
 namespace {
+
+using geometry::quantile;
 
 constexpr float kBlockWidths = 0.5F;
 constexpr float kLeastBlockPx = 4.0F;
@@ -39,12 +43,6 @@ struct Run {
   bool hangs = false;  // high over the background
   bool sunk = false;
 };
-
-float quantile(std::vector<float>& values, float share) {
-  const auto at = static_cast<std::ptrdiff_t>(share * static_cast<float>(values.size() - 1));
-  std::nth_element(values.begin(), values.begin() + at, values.end());
-  return values[static_cast<std::size_t>(at)];
-}
 
 std::vector<Block> blocks_of(const Strip& strip, int length) {
   const std::size_t count = (strip.stations.size() - 1) / static_cast<std::size_t>(length) + 1;
