@@ -23,6 +23,16 @@ cv::Scalar draw_color(std::size_t index) {
   return colors[index % colors.size()];
 }
 
+Legend legend_of_draws(const std::string& first, const cv::Scalar& color) {
+  return {{first, color},
+          {"draw 1", draw_color(0)},
+          {"2", draw_color(1)},
+          {"3", draw_color(2)},
+          {"4", draw_color(3)},
+          {"estimate", kEstimateColor},
+          {"TrackDLO-init", kBaselineColor}};
+}
+
 Canvas::Canvas(int width, int height) : picture_(height, width, CV_8UC3, cv::Scalar::all(255)) {}
 
 void Canvas::write(const std::string& text, cv::Point at, double size) {
@@ -44,7 +54,7 @@ void Canvas::write_centred(const std::string& text, cv::Point at, double size) {
   write(text, {at.x - size_of(text, size).width / 2, at.y}, size);
 }
 
-void Canvas::legend(const std::vector<std::pair<std::string, cv::Scalar>>& entries, cv::Point at) {
+void Canvas::legend(const Legend& entries, cv::Point at) {
   for (const auto& [text, color] : entries) {
     cv::rectangle(picture_, {at.x, at.y - 11, 14, 14}, color, cv::FILLED);
     write(text, {at.x + 20, at.y});

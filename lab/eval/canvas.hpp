@@ -20,6 +20,12 @@ inline const cv::Scalar kEstimateColor{180, 60, 60};
 /// Of draw `index`; they repeat after four.
 [[nodiscard]] cv::Scalar draw_color(std::size_t index);
 
+/// What a legend says, in order.
+using Legend = std::vector<std::pair<std::string, cv::Scalar>>;
+
+/// Of pictures that show every draw, the estimate and TrackDLO-init beside what `first` names.
+[[nodiscard]] Legend legend_of_draws(const std::string& first, const cv::Scalar& color);
+
 class Canvas {
  public:
   Canvas(int width, int height);
@@ -30,7 +36,7 @@ class Canvas {
   /// Ends at `at.x`.
   void write_left_of(const std::string& text, cv::Point at, double size = 0.42);
   void write_centred(const std::string& text, cv::Point at, double size = 0.42);
-  void legend(const std::vector<std::pair<std::string, cv::Scalar>>& entries, cv::Point at);
+  void legend(const Legend& entries, cv::Point at);
   void grid_line(cv::Point from, cv::Point to);
 
   [[nodiscard]] cv::Mat& picture() { return picture_; }

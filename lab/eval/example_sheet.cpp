@@ -103,14 +103,7 @@ Result<std::vector<std::uint8_t>> example_sheet_png(const DataSet& data_set) {
   const auto panels = panels_of(data_set);
   Canvas canvas(20 + (kWidth + 10) * static_cast<int>(panels.size()),
                 kTop + (kHeight + 26) * static_cast<int>(examples.size()) + 10);
-  canvas.legend({{"truth", kTruthColor},
-                 {"draw 1", draw_color(0)},
-                 {"2", draw_color(1)},
-                 {"3", draw_color(2)},
-                 {"4", draw_color(3)},
-                 {"estimate", kEstimateColor},
-                 {"TrackDLO-init", kBaselineColor}},
-                {10, 24});
+  canvas.legend(legend_of_draws("truth", kTruthColor), {10, 24});
   int y = kTop;
   for (const Trial* trial : examples) {
     canvas.write(trial->name + "; index errors, rings at the first nodes", {10, y + 14});

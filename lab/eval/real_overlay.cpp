@@ -108,14 +108,7 @@ Result<std::vector<std::uint8_t>> real_overlay_png(const DataSet& data_set) {
   }
   if (frames.empty()) return std::vector<std::uint8_t>();
   Canvas canvas(20 + 3 * (kSide + 10), kTop + (kSide + 30) * static_cast<int>(frames.size()));
-  canvas.legend({{"prior", kPriorColor},
-                 {"draw 1", draw_color(0)},
-                 {"2", draw_color(1)},
-                 {"3", draw_color(2)},
-                 {"4", draw_color(3)},
-                 {"estimate", kEstimateColor},
-                 {"TrackDLO-init", kBaselineColor}},
-                {10, 24});
+  canvas.legend(legend_of_draws("prior", kPriorColor), {10, 24});
   int y = kTop - 10;
   for (const auto& [trial, folder] : frames) {
     draw_frame(*trial, folder, y, canvas);
