@@ -1,5 +1,6 @@
 // Written by flowdlo_gate_fit; do not edit. Each list is in the order of its features.
-// Fitted on 600 scenes of wide training from 1000000, and 5999 without a model; weights 59f850ab35794e5c...
+// Fitted on 600 scenes of wide training from 1000000, and 5999 without a model;
+// weights 59f850ab35794e5c...
 #include "gate/calibrated.hpp"
 
 namespace flowdlo::gate {

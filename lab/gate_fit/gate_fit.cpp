@@ -170,7 +170,7 @@ int fit(const Options& options) {
   const auto weights = lab::fit_gate(all);
   const auto info = flowdlo::inspect_weights(options.weights);
   const std::string origin =
-      fmt::format("Fitted on {} scenes of {} {} from {}, and {} without a model; weights {}...",
+      fmt::format("Fitted on {} scenes of {} {} from {}, and {} without a model;\n// weights {}...",
                   samples->size(), options.split, options.part, options.first, more->size(),
                   info ? info->sha256.substr(0, 16) : "unknown");
   const std::string text = lab::constants_text(weights, origin);

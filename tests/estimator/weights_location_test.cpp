@@ -8,7 +8,8 @@ namespace {
 TEST(DefaultWeights, AreFoundBesideTheProgram) {  // build/<preset>/share/flowdlo/flowdlo.fdw
   const auto found = estimator::default_weights();
   ASSERT_TRUE(found) << found.error().message;
-  EXPECT_EQ(std::filesystem::canonical(*found), std::filesystem::canonical(FLOWDLO_DEFAULT_WEIGHTS));
+  EXPECT_EQ(std::filesystem::canonical(*found),
+            std::filesystem::canonical(FLOWDLO_DEFAULT_WEIGHTS));
 }
 
 }  // namespace
