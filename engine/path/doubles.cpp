@@ -1,6 +1,7 @@
 #include "path/doubles.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -37,10 +38,13 @@ constexpr float kSingleLeast = 0.75F;   // this wide at least
 constexpr float kSingleMost = 1.18F;    // and at most
 constexpr float kPixelNoise = 0.8F;     // and a thin one this many pixels more, beside
 constexpr float kClearMean = 1.85F;     // what is this much wider in the mean
-constexpr float kStepLeast = 0.1F;      // aside from the line the one lies at least this far
-constexpr float kTurnWidths = 1.0F;     // a strand that turns back takes this at the tip
-constexpr float kCornerDeep = 0.25F;    // so far before the edge a mask cut off
-constexpr float kCornerAside = 0.8F;    // reaches so far aside, a round one does not
+constexpr std::array<float, 3> kFitWidths{1.5F, 2.5F, 4.0F};  // of a line beside a step,
+constexpr float kBlurWidths = 0.5F;                           // beyond what blurs it
+constexpr float kSureSigmas = 2.0F;                           // and believed from this on
+constexpr float kStepLeast = 0.1F;    // aside from the line the one lies at least this far
+constexpr float kTurnWidths = 1.0F;   // a strand that turns back takes this at the tip
+constexpr float kCornerDeep = 0.25F;  // so far before the edge a mask cut off
+constexpr float kCornerAside = 0.8F;  // reaches so far aside, a round one does not
 constexpr float kStandsSeamPx = 8.0F;
 constexpr float kLeastWidthPx = 1.5F;
 constexpr float kForkedLeast = 1.18F;  // times its branches' width: a stem of two strands
@@ -199,10 +203,9 @@ class Cutter {
     const Vector2f direction = along.normalized();
     const Vector2f from = points.back();
     if (const Station* station = step(after, width_px)) {
-      const float aside =
-          cross(direction, station->middle_px - ahead(points, back, station->middle_px));
-      if (std::abs(aside) < kStepLeast * width_px) return false;
       const Vector2f left(-direction.y(), direction.x());
+      const float aside = aside_at(points, after, *station, left, width_px);
+      if (aside == 0) return false;
       const float side = (station->normal.dot(left) > 0) == (aside < 0) ? 1.0F : -1.0F;
       const Vector2f corner = station->edge(side);
       points.push_back(corner + (corner - station->middle_px).normalized());
@@ -257,18 +260,48 @@ class Cutter {
     return end % 2 == 0 ? &points[i] : &points[points.size() - 1 - i];
   }
 
-  // Where the line, bending on as it does, comes nearest to `p`.
-  static Vector2f ahead(const Points& points, std::size_t back, const Vector2f& p) {
+  // How far to the left of the back of `points` the line lies that goes on from `station`. The
+  // shorter lines are fitted the less they bend, the longer the less noise tells. 0: unknown.
+  [[nodiscard]] float aside_at(const Points& points, const Line& after, const Station& station,
+                               const Vector2f& left, float width_px) const {
+    const auto skip = static_cast<std::size_t>(kBlurWidths * width_px);
+    const auto from = static_cast<std::size_t>(&station - after.data()) + skip;
+    float best_px = left.dot(station.middle_px - ahead(points, station.middle_px, width_px));
+    if (std::abs(best_px) < kStepLeast * width_px) best_px = 0;
+    float surest = kSureSigmas;
+    for (const float widths : kFitWidths) {
+      const auto most = static_cast<std::size_t>(widths * width_px) + 4;
+      Points before;
+      for (std::size_t i = skip; i < std::min(skip + most, points.size()); ++i) {
+        before.push_back(points[points.size() - 1 - i]);
+      }
+      Points behind;
+      for (std::size_t i = from; i < std::min(from + most, after.size()); ++i) {
+        if (!single(after[i])) break;
+        behind.push_back(after[i].middle_px);
+      }
+      const Aside aside = step_aside(before, behind, left);
+      if (aside.sigma_px <= 0 || std::abs(aside.px) > width_px) continue;
+      const float sure = std::abs(aside.px) / aside.sigma_px;
+      if (sure > surest) {
+        surest = sure;
+        best_px = aside.px;
+      }
+    }
+    return best_px;
+  }
+
+  // Where `points`, bending on as they do, come nearest to `p`.
+  static Vector2f ahead(const Points& points, const Vector2f& p, float width_px) {
     const std::size_t last = points.size() - 1;
+    const auto half = static_cast<std::size_t>(std::max(2.0F, 0.5F * kTangentWidths * width_px));
     const Vector2f& from = points[last];
-    const Vector2f& middle = points[last - back / 2];
-    const Vector2f& start = points[last - 2 * (back / 2)];
+    const Vector2f& middle = points[last - std::min(half, last / 2)];
+    const Vector2f& start = points[last - 2 * std::min(half, last / 2)];
     const float step = std::max(1e-3F, (from - middle).norm());
     const float t = (p - from).dot(from - middle) / (step * step);
     return from + t * (from - middle) + 0.5F * t * (t + 1) * (from - 2 * middle + start);
   }
-
-  static float cross(const Vector2f& a, const Vector2f& b) { return a.x() * b.y() - a.y() * b.x(); }
 
   // Where the line goes on as one strand, soon and for long enough; null where it does not.
   [[nodiscard]] const Station* step(const Line& after, float width_px) const {

@@ -1,5 +1,6 @@
 #include "path/stations.hpp"
 
+#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -22,7 +23,10 @@ constexpr float kNearerMost = 2.5F;  // times nearer or farther than what is usu
 constexpr float kRunWidths = 3.0F;   // a narrow part is at least this long,
 constexpr float kHalfLeast = 0.42F;  // between these shares of the usual width,
 constexpr float kHalfMost = 0.72F;
-constexpr float kRunSpread = 1.25F;     // and even
+constexpr float kRunSpread = 1.25F;  // and even
+constexpr double kRoundPx2 = 0.01;   // what rounding adds to squared residuals
+constexpr float kThinPx = 6.0F;  // the distances to the edge of ropes thinner than this are rough
+constexpr float kUsualShare = 1.5F;     // of the narrow parts' width: usual up to this
 constexpr float kSingleShare = 1.3F;    // of the narrow parts' width: one strand up to this
 constexpr float kFewestNarrow = 0.04F;  // share of the stations that are one strand
 
@@ -138,6 +142,20 @@ float least_kept(const std::vector<Line>& lines, float width_px, float none) {
   return least;
 }
 
+// The median of what is not much wider than the narrow parts; 0 without any.
+float usual_size(const std::vector<Line>& lines) {
+  std::vector<float> sizes;
+  for (const Line& line : lines) {
+    for (const Station& station : line) {
+      if (station.whole && !station.seamed) sizes.push_back(station.size_px);
+    }
+  }
+  if (sizes.empty()) return 0;
+  const float most = kUsualShare * quantile(sizes, 0.2F);
+  std::erase_if(sizes, [&](float size) { return size > most; });
+  return sizes.empty() ? 0 : quantile(sizes, 0.5F);
+}
+
 }  // namespace
 
 float reach(const cv::Mat& mask, const Vector2f& p, const Vector2f& direction, float most_px) {
@@ -148,7 +166,33 @@ float reach(const cv::Mat& mask, const Vector2f& p, const Vector2f& direction, f
   return walked - 0.5F * kScanStepPx;
 }
 
+Aside step_aside(const Points& before, const Points& after, const Vector2f& left) {
+  if (before.size() < 3 || after.size() < 3) return {};
+  const Vector2f along(left.y(), -left.x());
+  const auto rows = static_cast<Eigen::Index>(before.size() + after.size());
+  Eigen::MatrixX4d terms(rows, 4);
+  Eigen::VectorXd aside(rows);
+  Eigen::Index row = 0;
+  for (const Points* points : {&before, &after}) {
+    for (const Vector2f& p : *points) {
+      const Vector2f off = p - before.front();
+      const double s = along.dot(off);
+      terms.row(row) << 1, s, s * s, points == &after ? 1 : 0;
+      aside(row++) = left.dot(off);
+    }
+  }
+  const auto scale = terms.cwiseAbs().colwise().maxCoeff().eval();
+  for (Eigen::Index c = 0; c < 4; ++c) terms.col(c) /= std::max(1e-9, scale(c));
+  const Eigen::Vector4d fit = terms.colPivHouseholderQr().solve(aside);
+  const double error = (terms * fit - aside).squaredNorm() / static_cast<double>(rows) + kRoundPx2;
+  const Eigen::Matrix4d normal = terms.transpose() * terms;
+  const double inverse = normal.ldlt().solve(Eigen::Vector4d::Unit(3))(3);
+  if (!(inverse > 0) || !std::isfinite(fit(3))) return {};
+  return {static_cast<float>(fit(3)), static_cast<float>(std::sqrt(error * inverse))};
+}
+
 float single_size(const std::vector<Line>& lines, float usual_px) {
+  if (usual_px < kThinPx) usual_px = std::max(usual_px, usual_size(lines));
   // Twice: at first the usual width may be that of two strands.
   float narrow = std::min(usual_px, least_kept(lines, usual_px, usual_px));
   narrow = std::min(narrow, least_kept(lines, 0.5F * usual_px, narrow));
