@@ -239,8 +239,9 @@ class Builder {
 
   void link(int a, int b, float extra) {
     if (a / 2 == b / 2) return;
-    const float cost = extra + cost_across(strands_.end(a), strands_.end(b));
-    if (cost < kMostGapCost) add(a, b, cost, true);
+    float cost = extra + cost_across(strands_.end(a), strands_.end(b));
+    if (cost > kMostGapCost) cost = kMostGapCost + 4*std::log(cost / kMostGapCost);
+    add(a, b, cost, true);
   }
 
   [[nodiscard]] float cost_across(const StrandEnd& a, const StrandEnd& b) const {
