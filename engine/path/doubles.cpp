@@ -59,6 +59,9 @@ class Cutter {
   Cutter(const Graph& graph, const cv::Mat& mask, float width_px)
       : graph_(graph), mask_(mask), size_px_(width_px), narrowest_px_(width_px) {}
 
+  // To cut nothing but what is too wide for one strand whatever its noise.
+  void only_clear() { least_ = kClearMean; }
+
   void cut(const Segment& segment, const Line& line) {
     const int count = static_cast<int>(line.size());
     for (int first = 0; first < count; ++first) {
@@ -71,8 +74,8 @@ class Cutter {
       const float width_px = size_px_ * line[(first + last) / 2].nearer;
       clear_ = mean > kClearMean;
       if (length >= std::max(kShortest * width_px, kShortestPx) && mean < kMeanMost &&
-          (mean > kMeanLeast ||
-           (mean > kAslantLeast && anchored(segment, line, first, last - 1)))) {
+          (mean > std::max(kMeanLeast, least_) ||
+           (mean > std::max(kAslantLeast, least_) && anchored(segment, line, first, last - 1)))) {
         draw(segment, line, first, last - 1);
       }
       first = last;
@@ -82,6 +85,7 @@ class Cutter {
   // The same for a stem between two forks, each with two branches narrower than the stem. Seen
   // aslant, two strands are not much wider than one; but four branches need two strands.
   void cut_stem(std::size_t stem, const std::vector<Line>& lines) {
+    if (least_ > 0) return;
     const Segment& segment = graph_.segments[stem];
     if (!forks(segment, 0) || !forks(segment, 1)) return;
     std::vector<float> branches;
@@ -327,6 +331,7 @@ class Cutter {
   const cv::Mat& mask_;
   float size_px_;
   float narrowest_px_;
+  float least_ = 0;      // widths: nothing narrower is cut
   bool clear_ = false;  // the stretch at hand is too wide for one strand whatever its noise
   std::vector<Points> found_;
 };
@@ -334,12 +339,12 @@ class Cutter {
 }  // namespace
 
 Doubles find_doubles(const Graph& graph, const Region& region, const Frame& frame) {
-  // Where the depth told strands apart, thin ones are narrower now than they are.
-  if (!region.seams.empty() && graph.width_px < kStandsSeamPx) return {};
   const std::vector<Line> lines = stations_of(graph, region, frame);
   const float width_px = single_size(lines, graph.width_px);
   const bool told = width_px >= kLeastWidthPx;
   Cutter cutter(graph, region.mask, told ? width_px : graph.width_px);
+  // Where the depth told strands apart, thin ones are narrower now than they are.
+  if (!region.seams.empty() && graph.width_px < kStandsSeamPx) cutter.only_clear();
   for (std::size_t i = 0; i < lines.size(); ++i) {
     const std::size_t had = cutter.found().size();
     if (told) cutter.cut(graph.segments[i], lines[i]);
