@@ -25,7 +25,8 @@ constexpr float kDoubleMost = 2.7F;    // to this
 constexpr float kMeanLeast = 1.52F;    // in the mean;
 constexpr float kAslantLeast = 1.33F;  // seen aslant, one partly hides the other: between forks
 constexpr float kMeanMost = 2.4F;
-constexpr float kShortest = 4.0F;       // widths; a flat crossing is shorter
+constexpr float kShortest = 4.0F;  // widths; a flat crossing is shorter
+constexpr float kShortestStepped = 2.0F;
 constexpr float kShortestPx = 20.0F;    // what frays leave on thin ropes is shorter too
 constexpr float kTrimWidths = 0.3F;     // what a round tip takes from the stretch
 constexpr float kTangentWidths = 3.0F;  // what tells the direction at its end
@@ -73,7 +74,9 @@ class Cutter {
       const float mean = sum / length;
       const float width_px = size_px_ * line[(first + last) / 2].nearer;
       clear_ = mean > kClearMean;
-      if (length >= std::max(kShortest * width_px, kShortestPx) && mean < kMeanMost &&
+      const bool brief = clear_ && stepped(line, first, last - 1);
+      const float shortest = (brief ? kShortestStepped : kShortest) * width_px;
+      if (length >= std::max(shortest, kShortestPx) && mean < kMeanMost &&
           (mean > std::max(kMeanLeast, least_) ||
            (mean > std::max(kAslantLeast, least_) && anchored(segment, line, first, last - 1)))) {
         draw(segment, line, first, last - 1);
@@ -147,6 +150,13 @@ class Cutter {
     Line before(line.begin(), line.begin() + first);
     std::reverse(before.begin(), before.end());
     return {std::move(before), Line(line.begin() + last + 1, line.end())};
+  }
+
+  // Whether one of the two strands stops at an end of a stretch: a crossing does not look so.
+  [[nodiscard]] bool stepped(const Line& line, int first, int last) const {
+    const float width_px = size_px_ * line[(first + last) / 2].nearer;
+    const auto [before, after] = around(line, first, last);
+    return step(before, width_px) != nullptr || step(after, width_px) != nullptr;
   }
 
   // Whether both ends of a stretch show where a second strand comes or goes: a fork, or a step.
@@ -331,7 +341,7 @@ class Cutter {
   const cv::Mat& mask_;
   float size_px_;
   float narrowest_px_;
-  float least_ = 0;      // widths: nothing narrower is cut
+  float least_ = 0;     // widths: nothing narrower is cut
   bool clear_ = false;  // the stretch at hand is too wide for one strand whatever its noise
   std::vector<Points> found_;
 };
