@@ -74,7 +74,7 @@ class Cutter {
       const float mean = sum / length;
       const float width_px = size_px_ * line[(first + last) / 2].nearer;
       clear_ = mean > kClearMean;
-      const bool brief = clear_ && stepped(line, first, last - 1);
+      const bool brief = mean > kMeanLeast && stepped(line, first, last - 1);
       const float shortest = (brief ? kShortestStepped : kShortest) * width_px;
       if (length >= std::max(shortest, kShortestPx) && mean < kMeanMost &&
           (mean > std::max(kMeanLeast, least_) ||
