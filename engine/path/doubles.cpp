@@ -49,6 +49,7 @@ constexpr float kCornerAside = 0.8F;  // reaches so far aside, a round one does 
 constexpr float kStandsSeamPx = 8.0F;
 constexpr float kLeastWidthPx = 1.5F;
 constexpr float kForkedLeast = 1.18F;  // times its branches' width: a stem of two strands
+constexpr float kLoopedLeast = 1.3F;
 constexpr float kForkedMost = 2.7F;
 constexpr float kForkedSpread = 1.35F;  // and even
 constexpr float kBranchFrom = 1.0F;     // branches tell from this many widths off the fork
@@ -86,14 +87,18 @@ class Cutter {
   }
 
   // The same for a stem between two forks, each with two branches narrower than the stem. Seen
-  // aslant, two strands are not much wider than one; but four branches need two strands.
+  // aslant, two strands are not much wider than one; but four branches need two strands. So do two
+  // at one fork, where the stem ends in a tip and they are the two ends of a loop.
   void cut_stem(std::size_t stem, const std::vector<Line>& lines) {
     if (least_ > 0) return;
     const Segment& segment = graph_.segments[stem];
-    if (!forks(segment, 0) || !forks(segment, 1)) return;
+    const int tip = at_tip(segment, 0) ? 0 : 1;
+    const bool looped = at_tip(segment, tip) && loops(stem, 1 - tip);
+    if (!looped && (!forks(segment, 0) || !forks(segment, 1))) return;
     std::vector<float> branches;
     for (const int node : segment.node) {
       const std::size_t before = branches.size();
+      if (looped && node == segment.node[tip]) continue;
       for (const int end : graph_.nodes[static_cast<std::size_t>(node)].ends) {
         if (static_cast<std::size_t>(end / 2) != stem) gather(lines, end, branches);
       }
@@ -110,10 +115,11 @@ class Cutter {
       sizes.push_back(line[i].size_px);
     }
     const float ratio = quantile(sizes, 0.5F) / branch_px;
-    if (ratio < kForkedLeast || ratio > kForkedMost) return;
+    if (ratio < (looped ? kLoopedLeast : kForkedLeast) || ratio > kForkedMost) return;
     if (quantile(sizes, 0.85F) > kForkedSpread * quantile(sizes, 0.15F)) return;
     Cutter narrow(graph_, mask_, branch_px);
     narrow.clear_ = ratio > kClearMean;
+    narrow.turns_ = !looped;
     narrow.draw(segment, line, static_cast<int>(trim), static_cast<int>(line.size() - trim) - 1);
     if (narrow.found_.empty()) return;
     found_.push_back(std::move(narrow.found_.front()));
@@ -168,6 +174,17 @@ class Cutter {
   }
   [[nodiscard]] bool forks(const Segment& segment, int side) const {
     return !segment.ring() && graph_.nodes[segment.node[side]].ends.size() > 2;
+  }
+
+  // Whether a fork's two other branches are the ends of one segment.
+  [[nodiscard]] bool loops(std::size_t stem, int side) const {
+    const Segment& segment = graph_.segments[stem];
+    if (!forks(segment, side)) return false;
+    std::vector<int> others;
+    for (const int end : graph_.nodes[static_cast<std::size_t>(segment.node[side])].ends) {
+      if (static_cast<std::size_t>(end / 2) != stem) others.push_back(end / 2);
+    }
+    return others.size() == 2 && others[0] == others[1];
   }
 
   // The sizes near a segment's end; 2 * segment + side.
@@ -226,10 +243,11 @@ class Cutter {
       return true;
     }
     const bool cut_off = tip && !after.empty() && !after.front().whole;
-    const float most = (cut_off ? kCutOffWidths : kRunOutWidths) * width_px + 2;
+    const bool far = cut_off || (tip && !turns_);
+    const float most = (far ? kCutOffWidths : kRunOutWidths) * width_px + 2;
     const float to_edge = reach(mask_, from, direction, most);
     if (to_edge + kScanStepPx >= most) return false;
-    if (!tip || !round(from + to_edge * direction, direction, width_px)) {
+    if (!tip || !turns_ || !round(from + to_edge * direction, direction, width_px)) {
       points.push_back(from + (to_edge + 1) * direction);
       return true;
     }
@@ -342,6 +360,7 @@ class Cutter {
   float size_px_;
   float narrowest_px_;
   float least_ = 0;     // widths: nothing narrower is cut
+  bool turns_ = true;   // a strand may turn back at a round tip
   bool clear_ = false;  // the stretch at hand is too wide for one strand whatever its noise
   std::vector<Points> found_;
 };
