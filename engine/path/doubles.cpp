@@ -285,10 +285,13 @@ class Cutter {
     return false;
   }
 
-  // The point `i` steps from an end of a segment, before its middle; null beyond.
+  // The point `i` steps from an end of a segment; before its middle, where it ends in no tip; null
+  // beyond.
   [[nodiscard]] const Vector2f* along_branch(int end, std::size_t i) const {
-    const Points& points = graph_.segments[static_cast<std::size_t>(end / 2)].points_px;
-    if (2 * i >= points.size()) return nullptr;
+    const Segment& branch = graph_.segments[static_cast<std::size_t>(end / 2)];
+    const Points& points = branch.points_px;
+    const std::size_t steps = at_tip(branch, 1 - end % 2) ? i : 2 * i;
+    if (steps >= points.size()) return nullptr;
     return end % 2 == 0 ? &points[i] : &points[points.size() - 1 - i];
   }
 
