@@ -379,7 +379,7 @@ Doubles find_doubles(const Graph& graph, const Region& region, const Frame& fram
   if (!region.seams.empty() && graph.width_px < kStandsSeamPx) cutter.only_clear();
   for (std::size_t i = 0; i < lines.size(); ++i) {
     const std::size_t had = cutter.found().size();
-    if (told && !graph.segments[i].ring()) cutter.cut(graph.segments[i], lines[i]);
+    if (told) cutter.cut(graph.segments[i], lines[i]);
     if (cutter.found().size() == had && !lines[i].empty()) cutter.cut_stem(i, lines);
   }
   return {cutter.found(), cutter.strand_px()};
