@@ -129,10 +129,27 @@ bool side_by_side(const Strands& strands, const std::vector<int>& way) {
   return static_cast<float>(length) > kBesideLength * strands.scale_px;
 }
 
+// From a tip back along its strand, and on to what it turns to.
+void fold_back(const Strands& strands, int tip, int to, Drawn& drawn) {
+  Points points = strands.list[tip / 2].points_px;
+  if (tip % 2 == 1) std::reverse(points.begin(), points.end());
+  for (const Vector2f& p : points) drawn.add(p, false);
+  for (const Vector2f& p : cubic(strands.end(tip ^ 1), strands.end(to))) drawn.add(p, false);
+}
+
 // Through a crossing the cubic is the better guess (the skeleton there is pulled to the middle),
 // as long as it stays in the mask; otherwise the skeleton is followed.
-void draw_bond(const Strands& strands, const Region& region, const Cover& cover,
-               const StrandEnd& from, const StrandEnd& to, Drawn& drawn) {
+void draw_bond(const Strands& strands, const Region& region, const Cover& cover, int from_id,
+               int to_id, Drawn& drawn) {
+  if (strands.folds(from_id, to_id)) return fold_back(strands, from_id, to_id, drawn);
+  if (strands.folds(to_id, from_id)) {
+    Drawn back;
+    fold_back(strands, to_id, from_id, back);
+    for (auto it = back.points.rbegin(); it != back.points.rend(); ++it) drawn.add(*it, false);
+    return;
+  }
+  const StrandEnd& from = strands.end(from_id);
+  const StrandEnd& to = strands.end(to_id);
   const bool gap = from.tip() || to.tip() || from.crossing != to.crossing;
   if (gap) {
     for (const Vector2f& p : gap_points(from, to, cover, strands.scale_px)) drawn.add(p, true);
@@ -224,8 +241,7 @@ Path assemble(const Traversal& traversal, const Strands& strands, const Region& 
   for (std::size_t i = 0; i < traversal.enters.size(); ++i) {
     const int enter = traversal.enters[i];
     if (i > 0) {
-      draw_bond(strands, region, cover, strands.end(traversal.enters[i - 1] ^ 1),
-                strands.end(enter), drawn);
+      draw_bond(strands, region, cover, traversal.enters[i - 1] ^ 1, enter, drawn);
     }
     Points points = strands.list[enter / 2].points_px;
     if (enter % 2 == 1) std::reverse(points.begin(), points.end());

@@ -22,6 +22,8 @@ constexpr float kSharedWidths = 5.0F;   // longest strand of one width that a se
 constexpr float kHidingWidths = 15.0F;  // or hide behind,
 constexpr float kBehindWidths = 2.5F;   // so far at least
 constexpr float kSharing = 0.6F;        // costs this
+constexpr float kFold = 2.5F;           // a strand that hides its way back costs this,
+constexpr float kFoldWidths = 3.0F;     // and one more for each so many widths
 constexpr float kLongWidths = 6.0F;     // bridges from this length on,
 constexpr float kCurved = 0.6F;         // or that turn by this angle (rad)
 constexpr float kKnownWidths = 3.0F;    // strands shorter than this are trusted less,
@@ -116,6 +118,7 @@ class Builder {
   std::vector<std::vector<Bond>> run() {
     through_crossings();
     along_shared_strands();
+    around_folds();
     across_gaps();
     for (auto& list : bonds_) {
       std::sort(list.begin(), list.end(), [](const Bond& a, const Bond& b) {
@@ -196,6 +199,22 @@ class Builder {
     add(from, to, kSharing + trust * bend + depth, false);
   }
 
+  // A rope has two ends: where more tips show, it turns back at one of them and returns behind or
+  // beside itself.
+  void around_folds() {
+    for (int tip = 0; tip < static_cast<int>(bonds_.size()); ++tip) {
+      if (!strands_.list[tip / 2].folding || !strands_.end(tip).tip()) continue;
+      const StrandEnd& root = strands_.end(tip ^ 1);
+      for (const int to : met_[root.crossing]) {
+        if (!strands_.folds(tip, to)) continue;
+        const float trust = std::min(trust_in(tip), trust_in(to));
+        const float hidden = strands_.list[tip / 2].covers_px / (kFoldWidths * strands_.scale_px);
+        add(tip, to, kFold + hidden + trust * bending(root, strands_.end(to), strands_.scale_px),
+            false);
+      }
+    }
+  }
+
   // A stump's direction is hardly known.
   [[nodiscard]] float trust_in(int end) const {
     const auto length = static_cast<float>(strands_.list[end / 2].points_px.size());
@@ -238,9 +257,10 @@ class Builder {
   }
 
   void link(int a, int b, float extra) {
-    if (a / 2 == b / 2) return;
-    const float cost = extra + cost_across(strands_.end(a), strands_.end(b));
-    if (cost < kMostGapCost) add(a, b, cost, true);
+    if (a / 2 == b / 2 || strands_.folds(a, b) || strands_.folds(b, a)) return;
+    float cost = extra + cost_across(strands_.end(a), strands_.end(b));
+    if (cost > kMostGapCost) cost = kMostGapCost + 4 * std::log(cost / kMostGapCost);
+    add(a, b, cost, true);
   }
 
   [[nodiscard]] float cost_across(const StrandEnd& a, const StrandEnd& b) const {

@@ -44,12 +44,16 @@ float Cover::depth_around(const Vector2f& p, bool on_mask) const {
 
 float Cover::rope_depth(const Vector2f& p) const { return depth_around(p, true); }
 
+float Cover::margin_m(float rope_m) const {
+  const float radius_m = 0.5F * width_px_ * rope_m / std::max(1.0F, frame_.intrinsics.fx);
+  return kMarginNoise_m + kMarginRadii * radius_m;
+}
+
 Sight Cover::at(const Vector2f& p, float rope_m) const {
   if (rope_m <= 0) return Sight::kUnknown;
   const float z = depth_around(p, false);
   if (z <= 0) return Sight::kUnknown;
-  const float radius_m = 0.5F * width_px_ * rope_m / std::max(1.0F, frame_.intrinsics.fx);
-  const float margin = kMarginNoise_m + kMarginRadii * radius_m;
+  const float margin = margin_m(rope_m);
   if (z < rope_m - margin) return Sight::kHidden;
   return z > rope_m + margin ? Sight::kOpen : Sight::kUnknown;
 }
@@ -60,6 +64,7 @@ Sight Cover::beyond(Vector2f p, const Vector2f& direction, float rope_m, float r
     if (walked > reach_px) return Sight::kUnknown;
     p += direction;
   }
+  const Vector2f edge = p;
   int hidden = 0;
   int open = 0;
   for (int i = 0; i < kProbes; ++i) {
@@ -69,8 +74,20 @@ Sight Cover::beyond(Vector2f p, const Vector2f& direction, float rope_m, float r
     hidden += sight == Sight::kHidden ? 1 : 0;
     open += sight == Sight::kOpen ? 1 : 0;
   }
-  if (2 * hidden > kProbes) return Sight::kHidden;
+  if (2 * hidden > kProbes) {
+    return rises_to(edge, direction, rope_m) ? Sight::kUnknown : Sight::kHidden;
+  }
   return 2 * open > kProbes ? Sight::kOpen : Sight::kUnknown;
+}
+
+// Whether what shows beyond `edge` is nearer than the rope only farther on: a table seen aslant,
+// on which the rope lies.
+bool Cover::rises_to(const Vector2f& edge, const Vector2f& direction, float rope_m) const {
+  const float near = depth_around(edge + kProbeStepPx * direction, false);
+  const float far = depth_around(edge + kProbes * kProbeStepPx * direction, false);
+  if (near <= 0 || far <= 0) return false;
+  const float at_edge_m = near + (near - far) / (kProbes - 1);
+  return at_edge_m >= rope_m - margin_m(rope_m);
 }
 
 }  // namespace flowdlo::path

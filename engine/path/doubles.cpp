@@ -1,6 +1,7 @@
 #include "path/doubles.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -24,7 +25,8 @@ constexpr float kDoubleMost = 2.7F;    // to this
 constexpr float kMeanLeast = 1.52F;    // in the mean;
 constexpr float kAslantLeast = 1.33F;  // seen aslant, one partly hides the other: between forks
 constexpr float kMeanMost = 2.4F;
-constexpr float kShortest = 4.0F;       // widths; a flat crossing is shorter
+constexpr float kShortest = 4.0F;  // widths; a flat crossing is shorter
+constexpr float kShortestStepped = 2.0F;
 constexpr float kShortestPx = 20.0F;    // what frays leave on thin ropes is shorter too
 constexpr float kTrimWidths = 0.3F;     // what a round tip takes from the stretch
 constexpr float kTangentWidths = 3.0F;  // what tells the direction at its end
@@ -37,13 +39,17 @@ constexpr float kSingleLeast = 0.75F;   // this wide at least
 constexpr float kSingleMost = 1.18F;    // and at most
 constexpr float kPixelNoise = 0.8F;     // and a thin one this many pixels more, beside
 constexpr float kClearMean = 1.85F;     // what is this much wider in the mean
-constexpr float kStepLeast = 0.1F;      // aside from the line the one lies at least this far
-constexpr float kTurnWidths = 1.0F;     // a strand that turns back takes this at the tip
-constexpr float kCornerDeep = 0.25F;    // so far before the edge a mask cut off
-constexpr float kCornerAside = 0.8F;    // reaches so far aside, a round one does not
+constexpr std::array<float, 3> kFitWidths{1.5F, 2.5F, 4.0F};  // of a line beside a step,
+constexpr float kBlurWidths = 0.5F;                           // beyond what blurs it
+constexpr float kSureSigmas = 2.0F;                           // and believed from this on
+constexpr float kStepLeast = 0.1F;    // aside from the line the one lies at least this far
+constexpr float kTurnWidths = 1.0F;   // a strand that turns back takes this at the tip
+constexpr float kCornerDeep = 0.25F;  // so far before the edge a mask cut off
+constexpr float kCornerAside = 0.8F;  // reaches so far aside, a round one does not
 constexpr float kStandsSeamPx = 8.0F;
 constexpr float kLeastWidthPx = 1.5F;
 constexpr float kForkedLeast = 1.18F;  // times its branches' width: a stem of two strands
+constexpr float kLoopedLeast = 1.3F;
 constexpr float kForkedMost = 2.7F;
 constexpr float kForkedSpread = 1.35F;  // and even
 constexpr float kBranchFrom = 1.0F;     // branches tell from this many widths off the fork
@@ -54,6 +60,9 @@ class Cutter {
  public:
   Cutter(const Graph& graph, const cv::Mat& mask, float width_px)
       : graph_(graph), mask_(mask), size_px_(width_px), narrowest_px_(width_px) {}
+
+  // To cut nothing but what is too wide for one strand whatever its noise.
+  void only_clear() { least_ = kClearMean; }
 
   void cut(const Segment& segment, const Line& line) {
     const int count = static_cast<int>(line.size());
@@ -66,9 +75,11 @@ class Cutter {
       const float mean = sum / length;
       const float width_px = size_px_ * line[(first + last) / 2].nearer;
       clear_ = mean > kClearMean;
-      if (length >= std::max(kShortest * width_px, kShortestPx) && mean < kMeanMost &&
-          (mean > kMeanLeast ||
-           (mean > kAslantLeast && anchored(segment, line, first, last - 1)))) {
+      const bool brief = mean > kMeanLeast && stepped(line, first, last - 1);
+      const float shortest = (brief ? kShortestStepped : kShortest) * width_px;
+      if (length >= std::max(shortest, kShortestPx) && mean < kMeanMost &&
+          (mean > std::max(kMeanLeast, least_) ||
+           (mean > std::max(kAslantLeast, least_) && anchored(segment, line, first, last - 1)))) {
         draw(segment, line, first, last - 1);
       }
       first = last;
@@ -76,13 +87,18 @@ class Cutter {
   }
 
   // The same for a stem between two forks, each with two branches narrower than the stem. Seen
-  // aslant, two strands are not much wider than one; but four branches need two strands.
+  // aslant, two strands are not much wider than one; but four branches need two strands. So do two
+  // at one fork, where the stem ends in a tip and they are the two ends of a loop.
   void cut_stem(std::size_t stem, const std::vector<Line>& lines) {
+    if (least_ > 0) return;
     const Segment& segment = graph_.segments[stem];
-    if (!forks(segment, 0) || !forks(segment, 1)) return;
+    const int tip = at_tip(segment, 0) ? 0 : 1;
+    const bool looped = at_tip(segment, tip) && loops(stem, 1 - tip);
+    if (!looped && (!forks(segment, 0) || !forks(segment, 1))) return;
     std::vector<float> branches;
     for (const int node : segment.node) {
       const std::size_t before = branches.size();
+      if (looped && node == segment.node[tip]) continue;
       for (const int end : graph_.nodes[static_cast<std::size_t>(node)].ends) {
         if (static_cast<std::size_t>(end / 2) != stem) gather(lines, end, branches);
       }
@@ -99,10 +115,11 @@ class Cutter {
       sizes.push_back(line[i].size_px);
     }
     const float ratio = quantile(sizes, 0.5F) / branch_px;
-    if (ratio < kForkedLeast || ratio > kForkedMost) return;
+    if (ratio < (looped ? kLoopedLeast : kForkedLeast) || ratio > kForkedMost) return;
     if (quantile(sizes, 0.85F) > kForkedSpread * quantile(sizes, 0.15F)) return;
     Cutter narrow(graph_, mask_, branch_px);
     narrow.clear_ = ratio > kClearMean;
+    narrow.turns_ = !looped;
     narrow.draw(segment, line, static_cast<int>(trim), static_cast<int>(line.size() - trim) - 1);
     if (narrow.found_.empty()) return;
     found_.push_back(std::move(narrow.found_.front()));
@@ -141,6 +158,13 @@ class Cutter {
     return {std::move(before), Line(line.begin() + last + 1, line.end())};
   }
 
+  // Whether one of the two strands stops at an end of a stretch: a crossing does not look so.
+  [[nodiscard]] bool stepped(const Line& line, int first, int last) const {
+    const float width_px = size_px_ * line[(first + last) / 2].nearer;
+    const auto [before, after] = around(line, first, last);
+    return step(before, width_px) != nullptr || step(after, width_px) != nullptr;
+  }
+
   // Whether both ends of a stretch show where a second strand comes or goes: a fork, or a step.
   [[nodiscard]] bool anchored(const Segment& segment, const Line& line, int first, int last) const {
     const float width_px = size_px_ * line[(first + last) / 2].nearer;
@@ -150,6 +174,17 @@ class Cutter {
   }
   [[nodiscard]] bool forks(const Segment& segment, int side) const {
     return !segment.ring() && graph_.nodes[segment.node[side]].ends.size() > 2;
+  }
+
+  // Whether a fork's two other branches are the ends of one segment.
+  [[nodiscard]] bool loops(std::size_t stem, int side) const {
+    const Segment& segment = graph_.segments[stem];
+    if (!forks(segment, side)) return false;
+    std::vector<int> others;
+    for (const int end : graph_.nodes[static_cast<std::size_t>(segment.node[side])].ends) {
+      if (static_cast<std::size_t>(end / 2) != stem) others.push_back(end / 2);
+    }
+    return others.size() == 2 && others[0] == others[1];
   }
 
   // The sizes near a segment's end; 2 * segment + side.
@@ -199,20 +234,20 @@ class Cutter {
     const Vector2f direction = along.normalized();
     const Vector2f from = points.back();
     if (const Station* station = step(after, width_px)) {
-      const float aside =
-          cross(direction, station->middle_px - ahead(points, back, station->middle_px));
-      if (std::abs(aside) < kStepLeast * width_px) return false;
       const Vector2f left(-direction.y(), direction.x());
+      const float aside = aside_at(points, after, *station, left, width_px);
+      if (aside == 0) return false;
       const float side = (station->normal.dot(left) > 0) == (aside < 0) ? 1.0F : -1.0F;
       const Vector2f corner = station->edge(side);
       points.push_back(corner + (corner - station->middle_px).normalized());
       return true;
     }
     const bool cut_off = tip && !after.empty() && !after.front().whole;
-    const float most = (cut_off ? kCutOffWidths : kRunOutWidths) * width_px + 2;
+    const bool far = cut_off || (tip && !turns_);
+    const float most = (far ? kCutOffWidths : kRunOutWidths) * width_px + 2;
     const float to_edge = reach(mask_, from, direction, most);
     if (to_edge + kScanStepPx >= most) return false;
-    if (!tip || !round(from + to_edge * direction, direction, width_px)) {
+    if (!tip || !turns_ || !round(from + to_edge * direction, direction, width_px)) {
       points.push_back(from + (to_edge + 1) * direction);
       return true;
     }
@@ -250,25 +285,58 @@ class Cutter {
     return false;
   }
 
-  // The point `i` steps from an end of a segment, before its middle; null beyond.
+  // The point `i` steps from an end of a segment; before its middle, where it ends in no tip; null
+  // beyond.
   [[nodiscard]] const Vector2f* along_branch(int end, std::size_t i) const {
-    const Points& points = graph_.segments[static_cast<std::size_t>(end / 2)].points_px;
-    if (2 * i >= points.size()) return nullptr;
+    const Segment& branch = graph_.segments[static_cast<std::size_t>(end / 2)];
+    const Points& points = branch.points_px;
+    const std::size_t steps = at_tip(branch, 1 - end % 2) ? i : 2 * i;
+    if (steps >= points.size()) return nullptr;
     return end % 2 == 0 ? &points[i] : &points[points.size() - 1 - i];
   }
 
-  // Where the line, bending on as it does, comes nearest to `p`.
-  static Vector2f ahead(const Points& points, std::size_t back, const Vector2f& p) {
+  // How far to the left of the back of `points` the line lies that goes on from `station`. The
+  // shorter lines are fitted the less they bend, the longer the less noise tells. 0: unknown.
+  [[nodiscard]] float aside_at(const Points& points, const Line& after, const Station& station,
+                               const Vector2f& left, float width_px) const {
+    const auto skip = static_cast<std::size_t>(kBlurWidths * width_px);
+    const auto from = static_cast<std::size_t>(&station - after.data()) + skip;
+    float best_px = left.dot(station.middle_px - ahead(points, station.middle_px, width_px));
+    if (std::abs(best_px) < kStepLeast * width_px) best_px = 0;
+    float surest = kSureSigmas;
+    for (const float widths : kFitWidths) {
+      const auto most = static_cast<std::size_t>(widths * width_px) + 4;
+      Points before;
+      for (std::size_t i = skip; i < std::min(skip + most, points.size()); ++i) {
+        before.push_back(points[points.size() - 1 - i]);
+      }
+      Points behind;
+      for (std::size_t i = from; i < std::min(from + most, after.size()); ++i) {
+        if (!single(after[i])) break;
+        behind.push_back(after[i].middle_px);
+      }
+      const Aside aside = step_aside(before, behind, left);
+      if (aside.sigma_px <= 0 || std::abs(aside.px) > width_px) continue;
+      const float sure = std::abs(aside.px) / aside.sigma_px;
+      if (sure > surest) {
+        surest = sure;
+        best_px = aside.px;
+      }
+    }
+    return best_px;
+  }
+
+  // Where `points`, bending on as they do, come nearest to `p`.
+  static Vector2f ahead(const Points& points, const Vector2f& p, float width_px) {
     const std::size_t last = points.size() - 1;
+    const auto half = static_cast<std::size_t>(std::max(2.0F, 0.5F * kTangentWidths * width_px));
     const Vector2f& from = points[last];
-    const Vector2f& middle = points[last - back / 2];
-    const Vector2f& start = points[last - 2 * (back / 2)];
+    const Vector2f& middle = points[last - std::min(half, last / 2)];
+    const Vector2f& start = points[last - 2 * std::min(half, last / 2)];
     const float step = std::max(1e-3F, (from - middle).norm());
     const float t = (p - from).dot(from - middle) / (step * step);
     return from + t * (from - middle) + 0.5F * t * (t + 1) * (from - 2 * middle + start);
   }
-
-  static float cross(const Vector2f& a, const Vector2f& b) { return a.x() * b.y() - a.y() * b.x(); }
 
   // Where the line goes on as one strand, soon and for long enough; null where it does not.
   [[nodiscard]] const Station* step(const Line& after, float width_px) const {
@@ -294,6 +362,8 @@ class Cutter {
   const cv::Mat& mask_;
   float size_px_;
   float narrowest_px_;
+  float least_ = 0;     // widths: nothing narrower is cut
+  bool turns_ = true;   // a strand may turn back at a round tip
   bool clear_ = false;  // the stretch at hand is too wide for one strand whatever its noise
   std::vector<Points> found_;
 };
@@ -301,12 +371,12 @@ class Cutter {
 }  // namespace
 
 Doubles find_doubles(const Graph& graph, const Region& region, const Frame& frame) {
-  // Where the depth told strands apart, thin ones are narrower now than they are.
-  if (!region.seams.empty() && graph.width_px < kStandsSeamPx) return {};
   const std::vector<Line> lines = stations_of(graph, region, frame);
   const float width_px = single_size(lines, graph.width_px);
   const bool told = width_px >= kLeastWidthPx;
   Cutter cutter(graph, region.mask, told ? width_px : graph.width_px);
+  // Where the depth told strands apart, thin ones are narrower now than they are.
+  if (!region.seams.empty() && graph.width_px < kStandsSeamPx) cutter.only_clear();
   for (std::size_t i = 0; i < lines.size(); ++i) {
     const std::size_t had = cutter.found().size();
     if (told) cutter.cut(graph.segments[i], lines[i]);

@@ -14,6 +14,7 @@
 #include "path/hidden_forks.hpp"
 #include "path/magnified.hpp"
 #include "path/region.hpp"
+#include "path/rings.hpp"
 #include "path/search.hpp"
 #include "path/strands.hpp"
 #include "path/thinning.hpp"
@@ -131,6 +132,7 @@ float margin_of(const std::vector<Path>& ranked) {
 Result<Traversals> trace_graph(Graph& graph, const Region& region, const Frame& frame,
                                const TraceConfig& asked) {
   split_at_hidden_forks(graph, Cover(region, frame, graph.width_px));
+  open_rings(graph, region);
   const Strands strands = make_strands(graph, region, frame);
   TraceConfig config = asked;
   config.alternatives = std::clamp(asked.alternatives, 0, kMostAlternatives);

@@ -1,5 +1,6 @@
 #include "path/stations.hpp"
 
+#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -21,8 +22,17 @@ constexpr float kMostScan = 2.2F;    // usual widths to each side
 constexpr float kNearerMost = 2.5F;  // times nearer or farther than what is usual: else no rope
 constexpr float kRunWidths = 3.0F;   // a narrow part is at least this long,
 constexpr float kHalfLeast = 0.42F;  // between these shares of the usual width,
-constexpr float kHalfMost = 0.72F;
-constexpr float kRunSpread = 1.25F;     // and even
+constexpr float kHalfMost = 0.78F;
+constexpr float kTwiceLeast = 1.33F;    // where another part is so much wider,
+constexpr float kHalfMostOfTwo = 0.9F;  // up to this share
+constexpr float kStepRun = 2.0F;        // widths to each side of a step, even,
+constexpr float kStepsPx = 2.5F;        // on ropes this wide at least
+constexpr float kStepSpread = 1.2F;
+constexpr float kStepBlur = 1.0F;    // that is this long
+constexpr float kRunSpread = 1.25F;  // and even
+constexpr double kRoundPx2 = 0.01;   // what rounding adds to squared residuals
+constexpr float kThinPx = 6.0F;  // the distances to the edge of ropes thinner than this are rough
+constexpr float kUsualShare = 1.5F;     // of the narrow parts' width: usual up to this
 constexpr float kSingleShare = 1.3F;    // of the narrow parts' width: one strand up to this
 constexpr float kFewestNarrow = 0.04F;  // share of the stations that are one strand
 
@@ -119,6 +129,18 @@ void calm(std::vector<Line>& lines, const Cover& cover, float width_px) {
   }
 }
 
+// What a line keeps between two stations, whole ones without seams; 0 where it is not even.
+float even(const Line& line, std::size_t first, std::size_t length, float spread,
+           float Station::*what) {
+  std::vector<float> values;
+  for (std::size_t k = first; k < first + length; ++k) {
+    if (!line[k].whole || line[k].seamed) return 0;
+    values.push_back(line[k].*what);
+  }
+  const float high = quantile(values, 0.85F);
+  return high <= spread * quantile(values, 0.15F) ? high : 0;
+}
+
 // The least size that a line keeps for some way; `none` where no line is long enough.
 float least_kept(const std::vector<Line>& lines, float width_px, float none) {
   float least = none;
@@ -126,16 +148,47 @@ float least_kept(const std::vector<Line>& lines, float width_px, float none) {
   const std::size_t step = std::max<std::size_t>(1, length / 6);
   for (const Line& line : lines) {
     for (std::size_t i = 0; i + length <= line.size(); i += step) {
-      std::vector<float> sizes;
-      for (std::size_t k = i; k < i + length && line[k].whole && !line[k].seamed; ++k) {
-        sizes.push_back(line[k].size_px);
-      }
-      if (sizes.size() < length) continue;
-      const float most = quantile(sizes, 0.85F);
-      if (most <= kRunSpread * quantile(sizes, 0.15F)) least = std::min(least, most);
+      const float size = even(line, i, length, kRunSpread, &Station::size_px);
+      if (size > 0) least = std::min(least, size);
     }
   }
   return least;
+}
+
+// Whether a line steps from about `narrow_px` to the width of two strands, or back. Perspective
+// changes widths slowly, and depths that are another strand's change sizes alone.
+bool steps(const std::vector<Line>& lines, float narrow_px) {
+  const auto length = static_cast<std::size_t>(std::max(6.0F, kStepRun * narrow_px));
+  const auto gap = static_cast<std::size_t>(std::max(2.0F, kStepBlur * narrow_px));
+  const std::size_t stride = std::max<std::size_t>(1, length / 4);
+  for (const Line& line : lines) {
+    for (std::size_t i = 0; i + 2 * length + gap <= line.size(); i += stride) {
+      const std::size_t behind = i + length + gap;
+      const float before = even(line, i, length, kStepSpread, &Station::width_px);
+      const float after = even(line, behind, length, kStepSpread, &Station::width_px);
+      if (before <= 0 || after <= 0) continue;
+      const Station& narrow = line[before < after ? i : behind];
+      if (narrow.size_px < kSingleShare * narrow_px &&
+          std::max(before, after) > kTwiceLeast * std::min(before, after)) {
+        return true;
+      }
+    }
+  }
+  return false;
+}
+
+// The median of what is not much wider than the narrow parts; 0 without any.
+float usual_size(const std::vector<Line>& lines) {
+  std::vector<float> sizes;
+  for (const Line& line : lines) {
+    for (const Station& station : line) {
+      if (station.whole && !station.seamed) sizes.push_back(station.size_px);
+    }
+  }
+  if (sizes.empty()) return 0;
+  const float most = kUsualShare * quantile(sizes, 0.2F);
+  std::erase_if(sizes, [&](float size) { return size > most; });
+  return sizes.empty() ? 0 : quantile(sizes, 0.5F);
 }
 
 }  // namespace
@@ -148,11 +201,38 @@ float reach(const cv::Mat& mask, const Vector2f& p, const Vector2f& direction, f
   return walked - 0.5F * kScanStepPx;
 }
 
+Aside step_aside(const Points& before, const Points& after, const Vector2f& left) {
+  if (before.size() < 3 || after.size() < 3) return {};
+  const Vector2f along(left.y(), -left.x());
+  const auto rows = static_cast<Eigen::Index>(before.size() + after.size());
+  Eigen::MatrixX4d terms(rows, 4);
+  Eigen::VectorXd aside(rows);
+  Eigen::Index row = 0;
+  for (const Points* points : {&before, &after}) {
+    for (const Vector2f& p : *points) {
+      const Vector2f off = p - before.front();
+      const double s = along.dot(off);
+      terms.row(row) << 1, s, s * s, points == &after ? 1 : 0;
+      aside(row++) = left.dot(off);
+    }
+  }
+  const auto scale = terms.cwiseAbs().colwise().maxCoeff().eval();
+  for (Eigen::Index c = 0; c < 4; ++c) terms.col(c) /= std::max(1e-9, scale(c));
+  const Eigen::Vector4d fit = terms.colPivHouseholderQr().solve(aside);
+  const double error = (terms * fit - aside).squaredNorm() / static_cast<double>(rows) + kRoundPx2;
+  const Eigen::Matrix4d normal = terms.transpose() * terms;
+  const double inverse = normal.ldlt().solve(Eigen::Vector4d::Unit(3))(3);
+  if (!(inverse > 0) || !std::isfinite(fit(3))) return {};
+  return {static_cast<float>(fit(3)), static_cast<float>(std::sqrt(error * inverse))};
+}
+
 float single_size(const std::vector<Line>& lines, float usual_px) {
+  if (usual_px < kThinPx) usual_px = std::max(usual_px, usual_size(lines));
   // Twice: at first the usual width may be that of two strands.
   float narrow = std::min(usual_px, least_kept(lines, usual_px, usual_px));
   narrow = std::min(narrow, least_kept(lines, 0.5F * usual_px, narrow));
-  if (narrow > kHalfMost * usual_px || narrow < kHalfLeast * usual_px) narrow = usual_px;
+  const float half_most = narrow > kStepsPx && steps(lines, narrow) ? kHalfMostOfTwo : kHalfMost;
+  if (narrow > half_most * usual_px || narrow < kHalfLeast * usual_px) narrow = usual_px;
   std::vector<float> single;
   std::size_t all = 0;
   for (const Line& line : lines) {

@@ -38,6 +38,19 @@ using Line = std::vector<Station>;
 /// The size of one strand; 0 where nothing tells it. `usual_px` is the rope's usual width.
 [[nodiscard]] float single_size(const std::vector<Line>& lines, float usual_px);
 
+/// A step of a line to a side.
+struct Aside {
+  float px = 0;
+  float sigma_px = 0;  ///< its standard error; 0: nothing is known
+};
+
+/// How far a line steps aside where it goes on as another: both are fitted as one parabola with a
+/// step, each from its first point on, near the step, away from it. Along `left`, from `before` to
+/// `after`; nothing where either has fewer than three points.
+[[nodiscard]] Aside step_aside(const std::vector<Eigen::Vector2f>& before,
+                               const std::vector<Eigen::Vector2f>& after,
+                               const Eigen::Vector2f& left);
+
 /// How far `mask` reaches from `p` along the unit vector `direction`, at most `most_px`.
 [[nodiscard]] float reach(const cv::Mat& mask, const Eigen::Vector2f& p,
                           const Eigen::Vector2f& direction, float most_px);

@@ -27,8 +27,8 @@ constexpr int kDepthSamples = 16;
 constexpr float kSlopeWidths = 2.0F;     // a slope over this length counts half
 constexpr float kCutWidths = 3.0F;       // how far ahead an occluder is looked for
 constexpr float kHeadingWidths = 0.75F;  // from the middle of what tells the direction to the end
-constexpr float kNotchPx = 5.0F;         // thinner rings show no notch,
-constexpr float kNotchShare = 0.8F;      // nor is one wider than this share of the rope
+constexpr float kFoldWidths = 2.5F;      // a strand this long at least may hide its way back
+constexpr float kStraightOff = 0.7F;     // of a strand's length: its tip is this far off
 constexpr float kMaxSlope = 1.5F;        // metres of depth a metre sideways
 
 float at(const cv::Mat& image, const Vector2f& p) {
@@ -150,18 +150,6 @@ void measure_depth(const Points& points, const Region& region, const Frame& fram
   end.depth_m = median_of(values);
 }
 
-// A ring is cut open where it is narrowest, when that is a notch: two tips that touch leave one.
-void open_at_notch(Points& points, const cv::Mat& distance, float width_px) {
-  if (width_px < kNotchPx || points.size() < 3) return;
-  std::vector<float> distances;
-  for (const Vector2f& p : points) distances.push_back(at(distance, p));
-  const auto least = std::min_element(distances.begin(), distances.end());
-  const auto narrowest = least - distances.begin();
-  const float least_px = *least;  // the median reorders them
-  if (least_px > kNotchShare * median_of(distances)) return;
-  std::rotate(points.begin(), points.begin() + narrowest, points.end());
-}
-
 Strand make_strand(const Segment& segment, const Graph& graph, const Crossings& crossings,
                    const Region& region, const Frame& frame, const Strands& sizes) {
   const Cover cover(region, frame, sizes.width_px);
@@ -170,7 +158,6 @@ Strand make_strand(const Segment& segment, const Graph& graph, const Crossings& 
   strand.covers_px = segment.length_px;
   const int half = std::clamp(static_cast<int>(std::lround(0.3F * sizes.width_px)), 1, 8);
   Points points = segment.points_px;
-  if (strand.ring) open_at_notch(points, region.distance_px, sizes.width_px);
   points = smoothed(std::move(points), half);
   recentre(points, region.mask, sizes.width_px);
   std::vector<std::uint8_t> aside = centre_on_rim(points, cover, sizes.width_px);
@@ -248,7 +235,37 @@ void find_forks(Strands& strands) {
   }
 }
 
+// A rope has two ends. Where more show, those of strands that come from a fork may be folds.
+void mark_folds(Strands& strands) {
+  const float least = kFoldWidths * strands.scale_px;
+  int tips = 0;
+  std::map<int, int> ends;  // at each crossing
+  for (const Strand& strand : strands.list) {
+    for (const StrandEnd& end : strand.ends) {
+      if (!end.tip()) ++ends[end.crossing];
+      if (end.tip() && !end.cut && strand.covers_px > least) ++tips;
+    }
+  }
+  if (tips <= 2) return;
+  for (Strand& strand : strands.list) {
+    const bool front = strand.ends[0].tip();
+    if (front == strand.ends[1].tip() || strand.covers_px <= least) continue;
+    const StrandEnd& tip = strand.ends[front ? 0 : 1];
+    strand.folding = !tip.cut && ends[strand.ends[front ? 1 : 0].crossing] == 3;
+  }
+}
+
 }  // namespace
+
+bool Strands::folds(int tip, int to) const {
+  const StrandEnd& root = end(tip ^ 1);
+  if (!list[tip / 2].folding || tip / 2 == to / 2 || !end(tip).tip() ||
+      end(to).crossing != root.crossing) {
+    return false;
+  }
+  const float away = (end(tip).point_px - end(to).point_px).norm();
+  return away > kStraightOff * static_cast<float>(list[tip / 2].points_px.size());
+}
 
 Strands make_strands(const Graph& graph, const Region& region, const Frame& frame) {
   Strands strands;
@@ -268,6 +285,7 @@ Strands make_strands(const Graph& graph, const Region& region, const Frame& fram
     }
   }
   find_forks(strands);
+  mark_folds(strands);
   return strands;
 }
 
