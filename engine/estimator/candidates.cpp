@@ -18,6 +18,23 @@ float length_off(const Centerline& nodes, double rope_length_m) {
   return static_cast<float>(std::abs(std::log(std::max(1e-6, length_m) / rope_length_m)));
 }
 
+/// [64] metres along the rope to the nearest node with support; its length where there is none.
+std::array<float, kNodes> unseen_m(const Centerline& nodes,
+                                   const std::array<std::uint8_t, kNodes>& support) {
+  const auto segments_m = geometry::segment_lengths(nodes);
+  const auto step_m = [&](std::size_t i) { return static_cast<float>(segments_m[i]); };
+  std::array<float, kNodes> unseen_m{};
+  unseen_m.fill(static_cast<float>(std::accumulate(segments_m.begin(), segments_m.end(), 0.0)));
+  for (std::size_t i = 0; i < kNodes; ++i) {
+    if (i > 0) unseen_m[i] = std::min(unseen_m[i], unseen_m[i - 1] + step_m(i - 1));
+    if (support[i] != 0) unseen_m[i] = 0;
+  }
+  for (std::size_t i = kNodes - 1; i-- > 0;) {
+    unseen_m[i] = std::min(unseen_m[i], unseen_m[i + 1] + step_m(i));
+  }
+  return unseen_m;
+}
+
 gate::Candidate prior_candidate(const Hypothesis& hypothesis, int index, double best) {
   gate::Candidate candidate;
   candidate.nodes = hypothesis.prior.nodes;
@@ -48,6 +65,10 @@ std::vector<gate::Candidate> list_candidates(const Conditions& conditions,
   std::vector<gate::Candidate> candidates;
   const auto measure = [&](gate::Candidate& candidate) {
     candidate.tube = view.score(candidate.nodes, candidate.radius_m);
+    candidate.pixel_m = view.pixel_m(candidate.nodes);
+    candidate.noise_m = view.noise_m();
+    const auto h = static_cast<std::size_t>(candidate.hypothesis);
+    candidate.unseen_m = unseen_m(candidate.nodes, hypotheses[h].prior.support);
     candidate.length_off = length_off(candidate.nodes, rope_length_m);
     candidates.push_back(candidate);
   };

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <exception>
 #include <future>
 #include <vector>
@@ -12,6 +11,7 @@
 #include "estimator/candidates.hpp"
 #include "estimator/conditions.hpp"
 #include "estimator/confidence.hpp"
+#include "estimator/config_check.hpp"
 #include "estimator/device_choice.hpp"
 #include "estimator/stopwatch.hpp"
 #include "estimator/tensors.hpp"
@@ -25,31 +25,6 @@
 
 namespace flowdlo {
 namespace {
-
-Result<void> check(const Config& config) {
-  std::string faults;
-  const auto expect = [&](bool fine, const char* field, const char* expected, int got) {
-    if (fine) return;
-    faults += fmt::format("{}Config.{}: expected {}, got {}", faults.empty() ? "" : "\n", field,
-                          expected, got);
-  };
-  expect(config.euler_steps >= 1 && config.euler_steps <= 64, "euler_steps", "1 to 64",
-         config.euler_steps);
-  expect(config.draws >= 1 && config.draws <= 64, "draws", "1 to 64", config.draws);
-  expect(config.threads >= 0 && config.threads <= 1024, "threads", "0 to 1024", config.threads);
-  expect(config.max_width >= 1 && config.max_width <= 4096, "max_width", "1 to 4096",
-         config.max_width);
-  expect(config.max_height >= 1 && config.max_height <= 4096, "max_height", "1 to 4096",
-         config.max_height);
-  expect(config.device_timeout_ms >= 0, "device_timeout_ms", "at least 0",
-         config.device_timeout_ms);
-  if (!std::isfinite(config.rope_length_m) || config.rope_length_m < 0) {
-    faults += fmt::format("{}Config.rope_length_m: expected metres, or 0 for unknown, got {}",
-                          faults.empty() ? "" : "\n", config.rope_length_m);
-  }
-  if (faults.empty()) return {};
-  return Error{ErrorCode::kBadInput, faults};
-}
 
 /// Nothing that a dependency throws leaves the library.
 template <class Work>
@@ -155,7 +130,8 @@ Estimate conclude(const Returned& returned, const std::vector<estimator::Hypothe
 
 }  // namespace
 
-struct Estimator::Impl {
+/// A member class is as visible as its owner unless it says otherwise.
+struct FLOWDLO_HIDDEN Estimator::Impl {
   Config config;
   std::shared_ptr<const weights::Weights> weights;
   std::string device;
@@ -170,7 +146,7 @@ struct Estimator::Impl {
 };
 
 Result<std::unique_ptr<Estimator::Impl>> Estimator::Impl::create(const Config& wanted) {
-  if (auto checked = check(wanted); !checked) return checked.error();
+  if (auto checked = estimator::check(wanted); !checked) return checked.error();
   auto file = wanted.weights.empty() ? estimator::default_weights()
                                      : Result<std::filesystem::path>(wanted.weights);
   if (!file) return file.error();

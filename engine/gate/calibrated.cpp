@@ -9,8 +9,6 @@ namespace flowdlo::gate {
 namespace {
 
 constexpr double kUnopposed = 99;
-constexpr double kLeastSigma_m = 1e-5;
-constexpr double kMostSigma_m = 10;
 
 template <std::size_t Size>
 double dot(const std::array<double, Size>& a, const std::array<double, Size>& b) {
@@ -72,13 +70,13 @@ Choice choose_calibrated(std::span<const Candidate> candidates, const GateWeight
   const double lead = lead_elsewhere(candidates, returned, scores, hypothesis);
   Choice choice;
   choice.chosen = returned[hypothesis];
-  const double logit = dot(closeness_features(candidates, choice.chosen, lead), weights.closeness);
+  const double logit =
+      weights.closeness(closeness_features(candidates, choice.chosen, lead)).front();
   choice.probability = std::isfinite(logit) ? 1 / (1 + std::exp(-logit)) : 0;
+  const NodeFeatures features(candidates, returned, scores, hypothesis, choice.probability);
   for (std::size_t node = 0; node < kNodes; ++node) {
-    const double sigma_m = std::exp(
-        dot(sigma_features(candidates, choice.chosen, node, choice.probability), weights.sigma));
-    choice.sigma_m[node] = static_cast<float>(
-        std::isfinite(sigma_m) ? std::clamp(sigma_m, kLeastSigma_m, kMostSigma_m) : kMostSigma_m);
+    const NodeError error(weights.node_error(features.of(node)));
+    choice.sigma_m[node] = static_cast<float>(0.5 * error.quantile_m(weights.sigma_share));
   }
   return choice;
 }

@@ -10,6 +10,9 @@
 #include "flowdlo/centerline.hpp"
 #include "gate/candidate.hpp"
 #include "gate/candidate_features.hpp"
+#include "gate/network.hpp"
+#include "gate/node_error.hpp"
+#include "gate/node_features.hpp"
 
 namespace flowdlo::gate {
 
@@ -22,8 +25,9 @@ struct GateWeights {
   double draw_margin = 0;  ///< score above which a draw replaces its prior
   std::array<double, kHypothesisFeatures> hypothesis{};
   double hypothesis_margin = 0;  ///< score by which a runner-up has to beat the best hypothesis
-  std::array<double, kClosenessFeatures> closeness{};
-  std::array<double, kSigmaFeatures> sigma{};
+  Network<kClosenessFeatures, 1> closeness;  ///< log odds that the winner is close
+  Network<kNodeFeatures, NodeError::kNumbers> node_error;
+  double sigma_share = 0;  ///< probability of being off by less than two sigma_m
 };
 
 /// Of the weights that come with FlowDLO.

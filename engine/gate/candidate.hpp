@@ -11,10 +11,13 @@ namespace flowdlo::gate {
 /// A prior, or a draw's prediction beside the prior that conditioned it.
 struct Candidate {
   Centerline nodes{};
-  std::array<float, kNodes> sigma_m{};  ///< a prior's own, or what the model says of its draw
-  int draw = -1;                        ///< -1: a prior
-  int hypothesis = 0;                   ///< index of the prior's candidate, best score first
-  float radius_m = 0;                   ///< of the rope, as the mask has it
+  std::array<float, kNodes> sigma_m{};   ///< a prior's own, or what the model says of its draw
+  int draw = -1;                         ///< -1: a prior
+  int hypothesis = 0;                    ///< index of the prior's candidate, best score first
+  float radius_m = 0;                    ///< of the rope, as the mask has it
+  float pixel_m = 0;                     ///< what a pixel spans at the rope's depth
+  float noise_m = 0;                     ///< standard deviation of the depths on the mask
+  std::array<float, kNodes> unseen_m{};  ///< along the rope to the nearest node with support
   TubeScore tube;       ///< how it looks beside mask and depth; the worst where it cannot be drawn
   double behind = 0;    ///< path score by which its traversal trails the best; at least 0
   float supported = 0;  ///< [0, 1] share of nodes with support

@@ -16,7 +16,7 @@ constexpr double kNear = 1.5;      // path score of a runner-up that is about as
 constexpr double kMostGap = 15;    // rope widths
 constexpr double kClear = 3;       // score that settles it
 constexpr double kCentimetre = 0.01;
-constexpr double kMostLogit = 6;
+constexpr double kMillimetre = 0.001;
 
 double missing(float share, double most) {
   return std::clamp((1 - static_cast<double>(share)) / most, 0.0, 1.0);
@@ -67,35 +67,11 @@ double mean_distance_m(const Centerline& a, const Centerline& b) {
   return std::min(forward, backward);
 }
 
-/// The first draw of the same hypothesis; null where it has none.
-const Candidate* draw_of(std::span<const Candidate> candidates, int hypothesis) {
-  for (const Candidate& candidate : candidates) {
-    if (candidate.draw >= 0 && candidate.hypothesis == hypothesis) return &candidate;
-  }
-  return nullptr;
-}
-
-/// The best prior of another hypothesis that runs elsewhere; null where there is none.
-const Candidate* rival_of(std::span<const Candidate> candidates, const Candidate& candidate) {
-  for (const Candidate& other : candidates) {
-    if (other.draw >= 0 || other.hypothesis == candidate.hypothesis) continue;
-    if (runs_elsewhere(candidate, other)) return &other;
-  }
-  return nullptr;
-}
-
-/// Between the nodes of that index, `b` turned the way that brings it nearer to `a` as a whole.
-double node_distance_m(const Centerline& a, const Centerline& b, std::size_t node) {
-  const double forward = distance_m(a.front(), b.front()) + distance_m(a.back(), b.back());
-  const double backward = distance_m(a.front(), b.back()) + distance_m(a.back(), b.front());
-  return distance_m(a[node], forward <= backward ? b[node] : b[kNodes - 1 - node]);
-}
-
-/// Half for every candidate of another hypothesis that ends up at the same place.
+/// Half for the prior of every other hypothesis that ends up at the same place.
 double agreed(std::span<const Candidate> candidates, const Candidate& candidate) {
   double others = 0;
   for (const Candidate& other : candidates) {
-    if (other.hypothesis == candidate.hypothesis) continue;
+    if (other.draw >= 0 || other.hypothesis == candidate.hypothesis) continue;
     others += runs_elsewhere(candidate, other) ? 0 : 0.5;
   }
   return std::min(1.0, others);
@@ -138,18 +114,6 @@ void add_looks(const Candidate& candidate, Row<Size>& row) {
   row.add(some(static_cast<double>(candidate.ring), 1));
   row.add(missing(candidate.supported, 1));
   row.add(some(static_cast<double>(candidate.length_off), 0.5));
-}
-
-/// What the model says about the hypothesis, whether the candidate is its prior or a draw.
-template <std::size_t Size>
-void add_model(std::span<const Candidate> candidates, const Candidate& candidate, Row<Size>& row) {
-  const Candidate* const draw = draw_of(candidates, candidate.hypothesis);
-  const Candidate& prior = candidates[static_cast<std::size_t>(candidate.hypothesis)];
-  const auto radius_m = static_cast<double>(candidate.radius_m);
-  row.add(radii(mean(prior.sigma_m), radius_m));
-  row.add(draw != nullptr ? radii(mean(draw->sigma_m), radius_m) : 0);
-  row.add(draw != nullptr ? radii(mean_distance_m(draw->nodes, prior.nodes), radius_m) : 0);
-  row.add(draw != nullptr ? 0 : 1);
 }
 
 double length_m(const Candidate& candidate) {
@@ -201,12 +165,13 @@ std::array<double, kDrawFeatures> draw_features(std::span<const Candidate> candi
 std::array<double, kHypothesisFeatures> hypothesis_features(std::span<const Candidate> candidates,
                                                             std::size_t index) {
   const Candidate& candidate = candidates[index];
+  const Candidate& prior = candidates[static_cast<std::size_t>(candidate.hypothesis)];
   Row<kHypothesisFeatures> row;
   row.add(some(candidate.behind, kMostBehind));
   row.add(some(candidate.behind, kNear));
   row.add(agreed(candidates, candidate));
   add_looks(candidate, row);
-  add_model(candidates, candidate, row);
+  row.add(radii(mean(prior.sigma_m), static_cast<double>(candidate.radius_m)));
   return row.values;
 }
 
@@ -214,6 +179,9 @@ std::array<double, kClosenessFeatures> closeness_features(std::span<const Candid
                                                           std::size_t index, double lead) {
   const Candidate& candidate = candidates[index];
   const Candidate& prior = candidates[static_cast<std::size_t>(candidate.hypothesis)];
+  const auto radius_m = static_cast<double>(candidate.radius_m);
+  const auto hypotheses = static_cast<double>(std::count_if(
+      candidates.begin(), candidates.end(), [](const Candidate& other) { return other.draw < 0; }));
   Row<kClosenessFeatures> row;
   row.add(1);
   row.add(some(lead, kClear));
@@ -221,57 +189,14 @@ std::array<double, kClosenessFeatures> closeness_features(std::span<const Candid
   row.add(agreed(candidates, candidate));
   row.add(some(candidate.behind, kMostBehind));
   add_looks(candidate, row);
-  add_model(candidates, candidate, row);
-  row.add(candidate.draw >= 0 ? 1 : 0);
+  row.add(radii(mean(prior.sigma_m), radius_m));
   row.add(log_ratio(mean(prior.sigma_m), kCentimetre, 4));
   row.add(log_ratio(largest(prior.sigma_m), kCentimetre, 4));
-  row.add(log_ratio(mean(candidate.sigma_m), kCentimetre, 4));
   row.add(log_ratio(length_m(candidate), 1, 3));
-  return row.values;
-}
-
-std::array<double, kSigmaFeatures> sigma_features(std::span<const Candidate> candidates,
-                                                  std::size_t index, std::size_t node,
-                                                  double probability) {
-  const Candidate& candidate = candidates[index];
-  const Candidate& prior = candidates[static_cast<std::size_t>(candidate.hypothesis)];
-  const Candidate* const draw = draw_of(candidates, candidate.hypothesis);
-  const Candidate& model = draw != nullptr ? *draw : prior;
-  const double share = std::clamp(probability, 1e-3, 1 - 1e-3);
-  const double logit = std::clamp(std::log(share / (1 - share)), -kMostLogit, kMostLogit);
-  const double doubt = std::max(0.0, 2 - logit);
-  const auto log_m = [](double value) { return std::log(std::max(1e-5, value) / 0.003); };
-  const double own = log_m(static_cast<double>(prior.sigma_m[node]));
-  const double middle = std::abs((static_cast<double>(node) + 0.5) / kNodes - 0.5);
-  const Candidate* const rival = rival_of(candidates, candidate);
-  const double apart =
-      rival != nullptr ? log_m(node_distance_m(candidate.nodes, rival->nodes, node) + 1e-3) : 0;
-  Row<kSigmaFeatures> row;
-  row.add(1);
-  row.add(own);
-  row.add(log_m(mean(prior.sigma_m)));
-  row.add(log_m(largest(prior.sigma_m)));
-  row.add(draw != nullptr ? 0 : 1);
-  row.add(log_m(static_cast<double>(model.sigma_m[node])) - own);
-  row.add(log_m(mean(model.sigma_m)) - log_m(mean(prior.sigma_m)));
-  row.add(draw != nullptr ? log_m(distance_m(prior.nodes[node], model.nodes[node]) + 1e-4) : 0);
-  row.add(rival != nullptr ? 0 : 1);
-  row.add(apart);
-  row.add(apart * doubt);
-  row.add(logit);
-  row.add(doubt);
-  row.add(std::max(0.0, -logit));
-  row.add(std::max(0.0, 3.5 - logit));
-  row.add(own * doubt);
-  row.add(log_m(static_cast<double>(candidate.radius_m)));
-  row.add(std::log(std::max(1e-3, length_m(candidate))));
-  row.add(middle);
-  row.add(middle * own);
-  row.add(middle * doubt);
-  row.add(missing(candidate.tube.depth_agreement, 0.5));
-  row.add(missing(candidate.tube.mask_precision, 0.1));
-  row.add(static_cast<double>(candidate.hidden_ends));
-  row.add(static_cast<double>(candidate.buried_ends));
+  row.add(log_ratio(static_cast<double>(candidate.pixel_m), kMillimetre, 3));
+  row.add(log_ratio(static_cast<double>(candidate.noise_m) + 0.1 * kMillimetre, kMillimetre, 3));
+  row.add(radii(largest(candidate.unseen_m), radius_m));
+  row.add(hypotheses / 4);
   return row.values;
 }
 

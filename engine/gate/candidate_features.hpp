@@ -17,21 +17,16 @@ inline constexpr std::size_t kDrawFeatures = 26;
                                                               std::size_t index);
 
 /// [kHypothesisFeatures] each in [-1, 1]: which hypothesis to prefer, by what it would return.
-inline constexpr std::size_t kHypothesisFeatures = 29;
+inline constexpr std::size_t kHypothesisFeatures = 26;
 [[nodiscard]] std::array<double, kHypothesisFeatures> hypothesis_features(
     std::span<const Candidate> candidates, std::size_t index);
 
 /// [kClosenessFeatures] about in [-1, 1], the first is one: how near the chosen candidate is to the
-/// truth. `lead` is the score by which it leads the best candidate that runs elsewhere.
-inline constexpr std::size_t kClosenessFeatures = 36;
+/// truth. `lead` is the score by which it leads the best candidate that runs elsewhere. Nothing of
+/// it is the model's, so that a fit on frames without one holds for frames with one.
+inline constexpr std::size_t kClosenessFeatures = 35;
 [[nodiscard]] std::array<double, kClosenessFeatures> closeness_features(
     std::span<const Candidate> candidates, std::size_t index, double lead);
-
-/// [kSigmaFeatures] the first is one: log metres by which a node of the chosen candidate is off,
-/// given the probability that the candidate is close.
-inline constexpr std::size_t kSigmaFeatures = 25;
-[[nodiscard]] std::array<double, kSigmaFeatures> sigma_features(
-    std::span<const Candidate> candidates, std::size_t index, std::size_t node, double probability);
 
 /// True when more than two rope diameters separate the mean nodes, whichever end comes first.
 [[nodiscard]] bool runs_elsewhere(const Candidate& a, const Candidate& b);

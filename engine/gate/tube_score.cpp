@@ -155,7 +155,7 @@ float TubeView::depth_noise_m() const {
   return 1.05F * *middle;  // median of |a - b| is 0.954 deviations
 }
 
-float TubeView::radius_m(const Centerline& nodes) const {
+float TubeView::pixel_m(const Centerline& nodes) const {
   std::vector<float> depths;
   for (const Point3& node : nodes) {
     if (node.z > kMinDepth_m && node.z < kMostDepth_m) depths.push_back(node.z);
@@ -163,8 +163,11 @@ float TubeView::radius_m(const Centerline& nodes) const {
   if (depths.empty()) return 0;
   const auto middle = depths.begin() + static_cast<std::ptrdiff_t>(depths.size() / 2);
   std::nth_element(depths.begin(), middle, depths.end());
-  const float focal_px = 0.5F * (camera_.fx + camera_.fy);
-  return std::min(kMostRadius_m, 0.5F * rope_width_px_ * *middle / focal_px);
+  return *middle / (0.5F * (camera_.fx + camera_.fy));
+}
+
+float TubeView::radius_m(const Centerline& nodes) const {
+  return std::min(kMostRadius_m, 0.5F * rope_width_px_ * pixel_m(nodes));
 }
 
 void TubeView::compare(const std::vector<TubePoint>& tube, float radius_m, TubeScore& score) {

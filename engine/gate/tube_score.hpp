@@ -36,6 +36,12 @@ class TubeView {
   /// What half a rope's width means in metres where `nodes` are.
   [[nodiscard]] float radius_m(const Centerline& nodes) const;
 
+  /// What a pixel spans where `nodes` are; 0 where none is in front of the camera.
+  [[nodiscard]] float pixel_m(const Centerline& nodes) const;
+
+  /// Standard deviation of the depths on the mask, as far as neighbours tell it.
+  [[nodiscard]] float noise_m() const { return noise_m_; }
+
   /// The worst score when a node is not finite or not in front of the camera, when the radius is
   /// not positive, or when there is no mask.
   [[nodiscard]] TubeScore score(const Centerline& nodes, float radius_m);

@@ -41,7 +41,7 @@ class FLOWDLO_EXPORT Estimator {
 
  private:
   struct Impl;
-  explicit Estimator(std::unique_ptr<Impl> impl);
+  FLOWDLO_HIDDEN explicit Estimator(std::unique_ptr<Impl> impl);
   std::unique_ptr<Impl> impl_;
 };
 

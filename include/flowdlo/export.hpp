@@ -12,3 +12,10 @@
 #else
 #define FLOWDLO_EXPORT
 #endif
+
+/// For what would be as visible as the exported class that it is a member of.
+#ifdef __GNUC__
+#define FLOWDLO_HIDDEN __attribute__((visibility("hidden")))
+#else
+#define FLOWDLO_HIDDEN
+#endif

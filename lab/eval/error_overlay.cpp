@@ -13,6 +13,11 @@ constexpr int kSize = 1000;  // of the longer side of the image
 constexpr float kFar_px = 1e5F;
 const cv::Scalar kTruth{60, 230, 60};
 const cv::Scalar kEstimate{40, 40, 255};
+const cv::Scalar kUnsupported{40, 230, 255};
+
+cv::Scalar color_of(std::span<const std::uint8_t> support, std::size_t node) {
+  return support.empty() || support[node] != 0 ? kEstimate : kUnsupported;
+}
 
 /// The image, or the depth as grey where there is no colour.
 cv::Mat picture_of(const Frame& frame) {
@@ -33,7 +38,8 @@ cv::Mat picture_of(const Frame& frame) {
   return picture;
 }
 
-void draw_depths(const Centerline& truth, const Centerline& nodes, cv::Mat& plot) {
+void draw_depths(const Centerline& truth, const Centerline& nodes,
+                 std::span<const std::uint8_t> support, cv::Mat& plot) {
   float low = truth[0].z;
   float high = low;
   for (const Point3& p : truth) {
@@ -48,14 +54,15 @@ void draw_depths(const Centerline& truth, const Centerline& nodes, cv::Mat& plot
   };
   for (std::size_t i = 0; i < kNodes; ++i) {
     cv::circle(plot, at(i, truth[i].z), 3, kTruth, cv::FILLED);
-    cv::circle(plot, at(i, nodes[i].z), 3, kEstimate, cv::FILLED);
+    cv::circle(plot, at(i, nodes[i].z), 3, color_of(support, i), cv::FILLED);
   }
 }
 
 }  // namespace
 
 Result<std::vector<std::uint8_t>> error_overlay_png(const Frame& frame, const Centerline& truth,
-                                                    const Centerline& nodes) {
+                                                    const Centerline& nodes,
+                                                    std::span<const std::uint8_t> support) {
   const auto project = [&](const Point3& p) {
     const Intrinsics& camera = frame.intrinsics;
     const float z = std::max(p.z, 1e-3F);
@@ -81,7 +88,8 @@ Result<std::vector<std::uint8_t>> error_overlay_png(const Frame& frame, const Ce
   for (std::size_t i = 0; i < kNodes; ++i) {
     cv::line(picture, at(truth[i]), at(nodes[i]), {255, 255, 255}, 1, cv::LINE_AA);
     cv::circle(picture, at(truth[i]), i == 0 ? 8 : 2, kTruth, i == 0 ? 2 : cv::FILLED);
-    cv::circle(picture, at(nodes[i]), i == 0 ? 11 : 2, kEstimate, i == 0 ? 2 : cv::FILLED);
+    cv::circle(picture, at(nodes[i]), i == 0 ? 11 : 2, color_of(support, i),
+               i == 0 ? 2 : cv::FILLED);
     if (i + 1 == kNodes) continue;
     cv::line(picture, at(truth[i]), at(truth[i + 1]), kTruth, 1, cv::LINE_AA);
     cv::line(picture, at(nodes[i]), at(nodes[i + 1]), kEstimate, 1, cv::LINE_AA);
@@ -89,7 +97,7 @@ Result<std::vector<std::uint8_t>> error_overlay_png(const Frame& frame, const Ce
   cv::Mat both(picture.rows, picture.cols + kPlotWidth, CV_8UC3, cv::Scalar::all(25));
   picture.copyTo(both(cv::Rect(0, 0, picture.cols, picture.rows)));
   cv::Mat plot = both(cv::Rect(picture.cols, 0, kPlotWidth, picture.rows));
-  draw_depths(truth, nodes, plot);
+  draw_depths(truth, nodes, support, plot);
   std::vector<std::uint8_t> bytes;
   if (cv::imencode(".png", both, bytes)) return bytes;
   return Error{ErrorCode::kInternal, "eval: expected a picture to be encoded as PNG, got nothing"};

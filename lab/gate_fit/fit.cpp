@@ -5,27 +5,23 @@
 #include <numeric>
 #include <utility>
 
-#include "confidence/choice.hpp"
 #include "eval/metrics.hpp"
+#include "gate_fit/calibration.hpp"
+#include "gate_fit/folds.hpp"
 #include "gate_fit/policy.hpp"
-#include "gate_fit/quantile.hpp"
 
 namespace flowdlo::lab {
 namespace {
 
-constexpr std::size_t kFolds = 5;
 constexpr double kMostError_m = 0.1;   // worse ones are all alike: a single scene must not decide
 constexpr double kBehindAtFirst = -6;  // the ranking decides until scenes say otherwise
 constexpr double kDrawRidge = 0.5;
 constexpr double kHypothesisRidge = 0.5;
-constexpr double kMarginErrors = 0.25;
-constexpr double kNever = 99;  // a margin that nothing passes
-constexpr double kClosenessRidge = 1;
-constexpr double kSigmaRidge = 1e-4;
-constexpr double kLeastError_m = 1e-5;
+constexpr double kDrawErrors = 0.25;
+constexpr double kHypothesisErrors = 1;  // another order costs centimetres where it is wrong
+constexpr double kNever = 99;            // a margin that nothing passes
 
 using Costs = std::vector<std::vector<double>>;  // [samples, candidates]
-using Indices = std::vector<std::size_t>;
 
 template <std::size_t Size>
 std::array<double, Size> as_array(const std::vector<double>& values) {
@@ -94,8 +90,8 @@ struct Change {
 };
 
 /// The margin of least cost. A change nearly as good as none is not made: of the margins whose cost
-/// is within one standard error of the least, the largest.
-double fit_margin(std::vector<Change> changes) {
+/// is within so many standard errors of the least, the largest.
+double fit_margin(std::vector<Change> changes, double errors) {
   std::sort(changes.begin(), changes.end(),
             [](const Change& a, const Change& b) { return a.score > b.score; });
   double cost = 0;
@@ -106,7 +102,7 @@ double fit_margin(std::vector<Change> changes) {
     least = std::min(least, cost);
     squares += change.cost * change.cost;
   }
-  const double enough = least + kMarginErrors * std::sqrt(squares);
+  const double enough = least + errors * std::sqrt(squares);
   cost = 0;
   double margin = changes.empty() ? kNever : changes.front().score;
   for (std::size_t i = 0; i < changes.size() && cost > std::min(0.0, enough); ++i) {
@@ -114,62 +110,6 @@ double fit_margin(std::vector<Change> changes) {
     margin = i + 1 < changes.size() ? changes[i + 1].score : 0;
   }
   return margin;
-}
-
-struct Outcome {
-  std::size_t chosen = 0;
-  double lead = 0;
-};
-
-std::array<double, gate::kClosenessFeatures> fit_closeness(const std::vector<GateSample>& samples,
-                                                           const Costs& costs,
-                                                           const std::vector<Outcome>& outcomes,
-                                                           const Indices& use) {
-  std::vector<Choice> choices;
-  for (const std::size_t s : use) {
-    const auto features =
-        gate::closeness_features(samples[s].candidates, outcomes[s].chosen, outcomes[s].lead);
-    Choice choice;
-    choice.rows = {as_vector(features), std::vector<double>(features.size(), 0)};
-    choice.right = costs[s][outcomes[s].chosen] < 100 * gate::kCloseError_m ? 0 : 1;
-    choices.push_back(std::move(choice));
-  }
-  return as_array<gate::kClosenessFeatures>(
-      fit(choices, gate::kClosenessFeatures, kClosenessRidge));
-}
-
-std::array<double, gate::kSigmaFeatures> fit_sigma(const std::vector<GateSample>& samples,
-                                                   const std::vector<Outcome>& outcomes,
-                                                   const std::vector<double>& probabilities) {
-  std::vector<ScaleRow> rows;
-  for (std::size_t s = 0; s < samples.size(); ++s) {
-    const auto& candidates = samples[s].candidates;
-    const auto off_m = node_errors_m(candidates[outcomes[s].chosen].nodes, samples[s].truth);
-    for (std::size_t node = 0; node < kNodes; ++node) {
-      const auto features =
-          gate::sigma_features(candidates, outcomes[s].chosen, node, probabilities[s]);
-      rows.push_back({as_vector(features), std::log(std::max(off_m[node], kLeastError_m))});
-    }
-  }
-  return as_array<gate::kSigmaFeatures>(fit_scale(rows, kSigmaRidge));
-}
-
-Indices all_but(std::size_t fold, std::size_t count) {
-  Indices indices;
-  for (std::size_t s = 0; s < count; ++s) {
-    if (s % kFolds != fold) indices.push_back(s);
-  }
-  return indices;
-}
-
-/// Calls `work` with each fold's other scenes and its own.
-template <class Work>
-void each_fold(std::size_t count, const Work& work) {
-  for (std::size_t fold = 0; fold < kFolds; ++fold) {
-    Indices own;
-    for (std::size_t s = fold; s < count; s += kFolds) own.push_back(s);
-    work(all_but(fold, count), own);
-  }
 }
 
 /// The stages of the gate, each fitted on what the one before says of scenes unknown to it.
@@ -187,7 +127,6 @@ struct Fitting {
 
   void choose_draws();
   void choose_hypotheses();
-  void calibrate();
 };
 
 void Fitting::choose_draws() {
@@ -206,7 +145,7 @@ void Fitting::choose_draws() {
       }
     }
   });
-  weights.draw_margin = fit_margin(std::move(changes));
+  weights.draw_margin = fit_margin(std::move(changes), kDrawErrors);
   for (std::size_t s = 0; s < samples.size(); ++s) {
     weights.draw = unknown[s];
     returned[s] = gate::returned_by(samples[s].candidates, weights);
@@ -229,27 +168,14 @@ void Fitting::choose_hypotheses() {
           {scores[s][best] - scores[s][0], costs[s][returned[s][best]] - costs[s][returned[s][0]]});
     }
   });
-  weights.hypothesis_margin = fit_margin(changes);
+  weights.hypothesis_margin = fit_margin(std::move(changes), kHypothesisErrors);
   for (std::size_t s = 0; s < samples.size(); ++s) {
     const std::size_t hypothesis = gate::preferred(scores[s], weights.hypothesis_margin);
-    outcomes[s] = {returned[s][hypothesis],
-                   gate::lead_elsewhere(samples[s].candidates, returned[s], scores[s], hypothesis)};
+    const double lead =
+        gate::lead_elsewhere(samples[s].candidates, returned[s], scores[s], hypothesis);
+    outcomes[s] = {returned[s], scores[s], hypothesis, lead};
   }
   weights.hypothesis = fit_hypothesis(samples, costs, returned, all_but(kFolds, samples.size()));
-}
-
-void Fitting::calibrate() {
-  std::vector<double> probabilities(samples.size());
-  each_fold(samples.size(), [&](const Indices& others, const Indices& own) {
-    const auto closeness = fit_closeness(samples, costs, outcomes, others);
-    for (const std::size_t s : own) {
-      const auto features =
-          gate::closeness_features(samples[s].candidates, outcomes[s].chosen, outcomes[s].lead);
-      probabilities[s] = 1 / (1 + std::exp(-dot(features, closeness)));
-    }
-  });
-  weights.sigma = fit_sigma(samples, outcomes, probabilities);
-  weights.closeness = fit_closeness(samples, costs, outcomes, all_but(kFolds, samples.size()));
 }
 
 }  // namespace
@@ -276,11 +202,14 @@ std::vector<double> errors_m(const GateSample& sample) {
   return errors;
 }
 
-gate::GateWeights fit_gate(const std::vector<GateSample>& samples) {
-  Fitting fitting(samples);
+gate::GateWeights fit_gate(const std::vector<GateSample>& samples,
+                           const std::vector<GateSample>& also) {
+  std::vector<GateSample> all = samples;
+  all.insert(all.end(), also.begin(), also.end());
+  Fitting fitting(all);
   fitting.choose_draws();
   fitting.choose_hypotheses();
-  fitting.calibrate();
+  calibrate(all, fitting.outcomes, samples.size(), fitting.weights);
   return fitting.weights;
 }
 

@@ -16,7 +16,9 @@ namespace flowdlo::lab {
                                                        const Centerline& truth);
 
 /// `samples` hold at least five. What one stage learns from another's answers, it learns from
-/// answers to scenes which that stage was not fitted on.
-[[nodiscard]] gate::GateWeights fit_gate(const std::vector<GateSample>& samples);
+/// answers to scenes which that stage was not fitted on. All learn from `also` as well, but the
+/// coverage of sigma_m is that of `samples`.
+[[nodiscard]] gate::GateWeights fit_gate(const std::vector<GateSample>& samples,
+                                         const std::vector<GateSample>& also = {});
 
 }  // namespace flowdlo::lab

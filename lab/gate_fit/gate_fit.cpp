@@ -32,6 +32,7 @@ constexpr std::uint64_t kFirstUntrained = 1000000;  // training takes its scenes
 constexpr int kLeastScenes = 50;
 constexpr std::uint64_t kLengthKnownEvery = 4;
 constexpr std::uint64_t kApart = 500000;  // between scenes with and without the model
+constexpr int kCleanShare = 4;            // one of the thesis split on so many of the others
 constexpr int kPixels = 1280 * 720;
 
 struct Options {
@@ -85,6 +86,15 @@ Result<Model> open_model(const Options& options, bool with_sampler) {
   return model;
 }
 
+/// A split that ends goes on with its next seed.
+Result<synth::SyntheticFrame> scene_of(const lab::SampleOrigin& origin, std::uint64_t index) {
+  const synth::Split split = *synth::split_of(origin.split);
+  const synth::Part part = *synth::part_of(origin.part);
+  const std::uint64_t count = synth::scene_count(split, part);
+  return synth::make_frame(split, part, count > 0 ? index / count : 0,
+                           count > 0 ? index % count : index, {.color = false});
+}
+
 /// Scenes `done` and later.
 Result<Samples> measured(const Options& options, const Batch& batch, int done) {
   auto model = open_model(options, batch.origin.draws > 0);
@@ -94,9 +104,7 @@ Result<Samples> measured(const Options& options, const Batch& batch, int done) {
                                   batch.scenes - done, options.quiet);
   for (int i = done; i < batch.scenes; ++i) {
     const std::uint64_t index = batch.origin.first + static_cast<std::uint64_t>(i);
-    const auto scene =
-        synth::make_frame(*synth::split_of(batch.origin.split), *synth::part_of(batch.origin.part),
-                          /*seed=*/0, index, {.color = false});
+    const auto scene = scene_of(batch.origin, index);
     if (!scene) return scene.error();
     auto sample = lab::measure(*scene, model->sampler ? &*model->sampler : nullptr, options.draws,
                                model->weights->metadata.variant.prior_kind,
@@ -155,6 +163,15 @@ Result<Samples> without_model(const Options& options) {
                      .file = options.cache.empty() ? "" : options.cache + "_priors.jsonl"});
 }
 
+/// Table-top scenes with clean depth, so that what is sure counts as well.
+Result<Samples> clean_without_model(const Options& options) {
+  if (options.more == 0) return Samples{};
+  return samples_of(options,
+                    {.origin = {.weights_sha256 = "", .split = "thesis", .part = options.part},
+                     .scenes = options.more / kCleanShare,
+                     .file = options.cache.empty() ? "" : options.cache + "_thesis.jsonl"});
+}
+
 int failed(const Error& error) {
   fmt::print(stderr, "{}\n", error.message);
   return 1;
@@ -165,14 +182,17 @@ int fit(const Options& options) {
   if (!samples) return failed(samples.error());
   const auto more = without_model(options);
   if (!more) return failed(more.error());
+  const auto clean = clean_without_model(options);
+  if (!clean) return failed(clean.error());
   Samples all = *samples;
   all.insert(all.end(), more->begin(), more->end());
-  const auto weights = lab::fit_gate(all);
+  const auto weights = lab::fit_gate(all, *clean);
   const auto info = flowdlo::inspect_weights(options.weights);
-  const std::string origin =
-      fmt::format("Fitted on {} scenes of {} {} from {}, and {} without a model;\n// weights {}...",
-                  samples->size(), options.split, options.part, options.first, more->size(),
-                  info ? info->sha256.substr(0, 16) : "unknown");
+  const std::string origin = fmt::format(
+      "Fitted on {} scenes of {} {} from {}, and {} and {} of thesis without a model;\n"
+      "// weights {}...",
+      samples->size(), options.split, options.part, options.first, more->size(), clean->size(),
+      info ? info->sha256.substr(0, 16) : "unknown");
   const std::string text = lab::constants_text(weights, origin);
   if (options.constants.empty()) {
     fmt::print("{}", text);
@@ -196,8 +216,8 @@ void add_options(CLI::App& command, Options& options) {
       ->check(CLI::ExistingFile);
   command
       .add_option("--cache", options.cache,
-                  "Keep what was measured in NAME.jsonl and NAME_priors.jsonl; remove them when "
-                  "path or prior change")
+                  "Keep what was measured in NAME.jsonl, NAME_priors.jsonl and NAME_thesis.jsonl; "
+                  "remove them when path or prior change")
       ->type_name("NAME");
   command.add_option("--split", options.split, "wide or thesis")
       ->check(CLI::IsMember({"wide", "thesis"}))

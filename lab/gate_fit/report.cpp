@@ -33,6 +33,7 @@ struct Row {
   double probability = 0;
   double one_sigma = 0;  ///< share of nodes
   double two_sigma = 0;
+  double sigma_mm = 0;  ///< mean of the nodes
 };
 
 Row row_of(const GateSample& sample, const gate::GateWeights& weights) {
@@ -61,6 +62,7 @@ Row row_of(const GateSample& sample, const gate::GateWeights& weights) {
     const auto sigma_m = static_cast<double>(choice.sigma_m[node]);
     row.one_sigma += off_m[node] <= sigma_m ? 1.0 / kNodes : 0;
     row.two_sigma += off_m[node] <= 2 * sigma_m ? 1.0 / kNodes : 0;
+    row.sigma_mm += 1000 * sigma_m / kNodes;
   }
   return row;
 }
@@ -94,6 +96,39 @@ std::string group_line(const std::string& name, const std::vector<Row>& rows) {
       ratio.value, ratio.low, ratio.high, over(&Row::prior_cm), over(&Row::estimate_cm),
       100 * mean(rows, [](const Row& row) { return row.left ? 1.0 : 0.0; }),
       100 * mean(rows, [](const Row& row) { return row.predicted ? 1.0 : 0.0; }));
+}
+
+double median(std::vector<double> values) {
+  if (values.empty()) return 0;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+/// Coverage and width of sigma_m in tenths of the scenes, least confident first.
+std::string sharpness(std::vector<Row> rows) {
+  std::stable_sort(rows.begin(), rows.end(),
+                   [](const Row& a, const Row& b) { return a.probability < b.probability; });
+  std::string text =
+      "\n| confidence | within one sigma_m | within two | median sigma_m, mm "
+      "|\n|---|---|---|---|\n";
+  for (std::size_t tenth = 0; tenth < kBins; ++tenth) {
+    const std::vector<Row> part(
+        rows.begin() + static_cast<std::ptrdiff_t>(rows.size() * tenth / kBins),
+        rows.begin() + static_cast<std::ptrdiff_t>(rows.size() * (tenth + 1) / kBins));
+    if (part.empty()) continue;
+    text += fmt::format("| {:.3f} | {:.1f} % | {:.1f} % | {:.2f} |\n",
+                        mean(part, [](const Row& row) { return row.probability; }),
+                        100 * mean(part, [](const Row& row) { return row.one_sigma; }),
+                        100 * mean(part, [](const Row& row) { return row.two_sigma; }),
+                        median(values(part, &Row::sigma_mm)));
+  }
+  std::erase_if(rows, [](const Row& row) { return !row.close; });
+  return text + fmt::format(
+                    "\nOf the {} scenes under 1 cm sigma_m is {:.2f} mm in the mean, {:.2f} in the "
+                    "median.\n",
+                    rows.size(), mean(rows, [](const Row& row) { return row.sigma_mm; }),
+                    median(values(rows, &Row::sigma_mm)));
 }
 
 std::string calibration(const std::vector<Row>& rows) {
@@ -144,7 +179,7 @@ std::string report(const std::vector<GateSample>& samples, const gate::GateWeigh
   for (const auto& [name, rows] : groups) {
     text += group_line(name.starts_with(' ') ? name.substr(1) : name, rows);
   }
-  return text + calibration(groups[" all"]);
+  return text + calibration(groups[" all"]) + sharpness(groups[" all"]);
 }
 
 }  // namespace flowdlo::lab

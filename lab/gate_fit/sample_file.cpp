@@ -13,12 +13,16 @@ namespace {
 
 using Json = nlohmann::json;
 
+constexpr int kFormat = 2;  // rises with what a candidate holds
+
 /// Calls `field` with the name and value of each number of a candidate.
 template <class Candidate, class Field>
 void each_number(Candidate& candidate, const Field& field) {
   field("draw", candidate.draw);
   field("hypothesis", candidate.hypothesis);
   field("radius_m", candidate.radius_m);
+  field("pixel_m", candidate.pixel_m);
+  field("noise_m", candidate.noise_m);
   field("behind", candidate.behind);
   field("supported", candidate.supported);
   field("bridged", candidate.bridged);
@@ -64,7 +68,9 @@ Json to_json(const GateSample& sample) {
       {"index", sample.index}, {"scenario", sample.scenario},       {"easy", sample.easy},
       {"hard", sample.hard},   {"truth", nodes_json(sample.truth)}, {"candidates", Json::array()}};
   for (const gate::Candidate& candidate : sample.candidates) {
-    Json entry{{"nodes", nodes_json(candidate.nodes)}, {"sigma_m", candidate.sigma_m}};
+    Json entry{{"nodes", nodes_json(candidate.nodes)},
+               {"sigma_m", candidate.sigma_m},
+               {"unseen_m", candidate.unseen_m}};
     each_number(candidate, [&](const char* name, auto value) { entry[name] = value; });
     json["candidates"].push_back(std::move(entry));
   }
@@ -83,6 +89,7 @@ GateSample sample_from(const Json& json) {
     candidate.nodes = nodes_from(entry.at("nodes"));
     for (std::size_t i = 0; i < kNodes; ++i) {
       entry.at("sigma_m").at(i).get_to(candidate.sigma_m[i]);
+      entry.at("unseen_m").at(i).get_to(candidate.unseen_m[i]);
     }
     each_number(candidate, [&](const char* name, auto& value) { entry.at(name).get_to(value); });
     sample.candidates.push_back(candidate);
@@ -91,11 +98,9 @@ GateSample sample_from(const Json& json) {
 }
 
 Json to_json(const SampleOrigin& origin) {
-  return {{"weights_sha256", origin.weights_sha256},
-          {"split", origin.split},
-          {"part", origin.part},
-          {"first", origin.first},
-          {"draws", origin.draws},
+  return {{"format", kFormat},     {"weights_sha256", origin.weights_sha256},
+          {"split", origin.split}, {"part", origin.part},
+          {"first", origin.first}, {"draws", origin.draws},
           {"steps", origin.steps}};
 }
 

@@ -27,8 +27,8 @@ struct SampleFile {
   std::vector<GateSample> samples;
 };
 
-/// Empty where there is no such file, or where it is of another origin. Fails with kBadInput where
-/// a line is no sample.
+/// Empty where there is no such file, or where it is of another origin or an older format. Fails
+/// with kBadInput where a line is no sample.
 [[nodiscard]] Result<SampleFile> read_samples(const std::filesystem::path& file,
                                               const SampleOrigin& origin);
 

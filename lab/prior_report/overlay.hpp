@@ -8,9 +8,7 @@
 
 namespace flowdlo::lab {
 
-/// Left the scene around the rope, enlarged: truth green, estimate red (yellow where unsupported),
-/// white lines between nodes of equal index. Right the depths along the nodes. False when `file`
-/// cannot be written.
+/// As eval::error_overlay_png draws a prior with its support. False when `file` cannot be written.
 bool save_overlay(const std::string& file, const Scene& scene, const Centerline& truth,
                   const prior::Prior& prior);
 

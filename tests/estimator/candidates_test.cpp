@@ -82,6 +82,24 @@ TEST_F(ListCandidates, LengthCountsOnlyWhereItIsKnown) {
   EXPECT_NEAR(off(2 * length_m), std::log(2.0), 1e-4);
 }
 
+TEST_F(ListCandidates, UnseenIsHowFarTheNearestNodeWithSupportIsAlongTheRope) {
+  auto& support = conditions_.hypotheses.front().prior.support;
+  support.fill(1);
+  support[20] = support[21] = support[22] = 0;
+  const auto listed = estimator::list_candidates(conditions_, {}, {}, {}, frame_, 0);
+  const auto segments_m = geometry::segment_lengths(listed[0].nodes);
+  EXPECT_EQ(listed[0].unseen_m[19], 0);
+  EXPECT_NEAR(listed[0].unseen_m[20], segments_m[19], 1e-6);
+  EXPECT_NEAR(listed[0].unseen_m[21], segments_m[19] + segments_m[20], 1e-5);
+  EXPECT_NEAR(listed[0].unseen_m[22], segments_m[22], 1e-6);
+}
+
+TEST_F(ListCandidates, WithoutAnySupportTheWholeRopeIsUnseen) {
+  conditions_.hypotheses.front().prior.support.fill(0);
+  const auto listed = estimator::list_candidates(conditions_, {}, {}, {}, frame_, 0);
+  EXPECT_NEAR(listed[0].unseen_m[30], geometry::length(listed[0].nodes), 1e-4);
+}
+
 TEST_F(ListCandidates, AGoodPriorLooksGood) {
   const auto listed = estimator::list_candidates(conditions_, {}, {}, {}, frame_, 0);
   ASSERT_EQ(listed.size(), conditions_.hypotheses.size());

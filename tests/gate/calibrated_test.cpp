@@ -27,6 +27,8 @@ Candidate straight(float shift_m, int hypothesis = 0, int draw = -1) {
   candidate.draw = draw;
   candidate.hypothesis = hypothesis;
   candidate.radius_m = 0.003F;
+  candidate.pixel_m = 0.001F;
+  candidate.noise_m = 0.001F;
   candidate.supported = 1;
   candidate.tube = {.mask_recall = 1,
                     .mask_precision = 1,
@@ -103,13 +105,13 @@ TEST(CalibratedGate, TheProbabilityIsTheLogisticOfItsWeights) {
   const std::vector candidates{straight(0)};
   GateWeights weights;
   EXPECT_DOUBLE_EQ(choose_calibrated(candidates, weights).probability, 0.5);
-  weights.closeness[0] = std::log(3.0);
+  weights.closeness.straight[0][0] = std::log(3.0);
   EXPECT_NEAR(choose_calibrated(candidates, weights).probability, 0.75, 1e-12);
 }
 
 TEST(CalibratedGate, LessOfTheMaskExplainedIsLessLikely) {
   GateWeights weights;
-  weights.closeness[kClosenessRecall] = -2;
+  weights.closeness.straight[0][kClosenessRecall] = -2;
   double before = 1;
   for (const float recall : {1.0F, 0.95F, 0.9F, 0.8F}) {
     const std::vector candidates{with_recall(straight(0), recall)};
@@ -121,7 +123,7 @@ TEST(CalibratedGate, LessOfTheMaskExplainedIsLessLikely) {
 
 TEST(CalibratedGate, OnlyCandidatesThatRunElsewhereCastDoubt) {
   GateWeights weights = by_recall();
-  weights.closeness[kClosenessLead] = 1;
+  weights.closeness.straight[0][kClosenessLead] = 1;
   const Candidate best = straight(0);
   const double alone = choose_calibrated(std::vector{best}, weights).probability;
   const double beside =
@@ -140,12 +142,25 @@ TEST(CalibratedGate, ARopeWalkedTheOtherWayRunsNowhereElse) {
   EXPECT_TRUE(runs_elsewhere(there, straight(0.1F)));
 }
 
-TEST(CalibratedGate, SigmaIsTheExponentialOfItsWeights) {
-  const std::vector candidates{straight(0)};
+/// Every node about that far off, and none elsewhere.
+GateWeights all_off_by(double distance_m) {
   GateWeights weights;
-  weights.sigma[0] = std::log(0.004);
+  weights.node_error.straight[0][0] = std::log(distance_m);
+  weights.node_error.straight[2][0] = -50;
+  weights.node_error.straight[3][0] = -2;
+  return weights;
+}
+
+TEST(CalibratedGate, TwoSigmaAreWhatThePromisedShareOfNodesIsWithin) {
+  const std::vector candidates{straight(0)};
+  GateWeights weights = all_off_by(0.004);
+  weights.sigma_share = 0.5;
   for (const float sigma_m : choose_calibrated(candidates, weights).sigma_m) {
-    EXPECT_NEAR(sigma_m, 0.004F, 1e-6F);
+    EXPECT_NEAR(sigma_m, 0.002F, 1e-6F);
+  }
+  weights.sigma_share = 0.9;
+  for (const float sigma_m : choose_calibrated(candidates, weights).sigma_m) {
+    EXPECT_NEAR(sigma_m, 0.002 * std::pow(9.0, std::exp(-2.0)), 1e-6);
   }
 }
 

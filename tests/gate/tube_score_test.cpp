@@ -256,5 +256,11 @@ TEST(TubeView, RadiusIsHalfTheWidthWhereTheNodesAre) {
   EXPECT_NEAR(TubeView(picture.frame(), kWidth_px).radius_m(nodes_of(wave)), 0.01F, 1e-5F);
 }
 
+TEST(TubeView, AsManyPixelsAsTheRopeIsWideSpanItsDiameter) {
+  const Picture picture(wave);
+  EXPECT_NEAR(kWidth_px * TubeView(picture.frame(), kWidth_px).pixel_m(nodes_of(wave)), 0.02F,
+              2e-5F);
+}
+
 }  // namespace
 }  // namespace flowdlo::gate

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <random>
 
 namespace flowdlo::lab {
 namespace {
@@ -70,6 +71,39 @@ TEST(FitGate, SaysHowOftenItIsClose) {
     mean += gate::choose_calibrated(sample.candidates, weights).probability / 60;
   }
   EXPECT_GT(mean, 0.9);  // all of them are
+}
+
+/// One hypothesis, every node off by its own normal deviate of 1 mm.
+std::vector<GateSample> noisy_scenes(int count) {
+  std::mt19937 engine(5);
+  std::normal_distribution<float> noise_m(0, 0.001F);
+  std::vector<GateSample> samples;
+  for (int i = 0; i < count; ++i) {
+    GateSample sample;
+    sample.truth = line(0, 0, -1, 1).nodes;
+    sample.candidates = {line(0, 0, -1, 1)};
+    for (Point3& node : sample.candidates[0].nodes) node.y += noise_m(engine);
+    samples.push_back(sample);
+  }
+  return samples;
+}
+
+TEST(FitGate, CoversAboutTwoThirdsOfTheNodesByOneSigmaAndNearlyAllByTwo) {
+  const auto samples = noisy_scenes(200);
+  const auto weights = fit_gate(samples);
+  double one = 0;
+  double two = 0;
+  for (const GateSample& sample : samples) {
+    const auto choice = gate::choose_calibrated(sample.candidates, weights);
+    const auto off_m = node_errors_m(sample.candidates[0].nodes, sample.truth);
+    for (std::size_t node = 0; node < kNodes; ++node) {
+      const auto sigma_m = static_cast<double>(choice.sigma_m[node]);
+      one += off_m[node] <= sigma_m ? 1.0 / (200 * kNodes) : 0;
+      two += off_m[node] <= 2 * sigma_m ? 1.0 / (200 * kNodes) : 0;
+    }
+  }
+  EXPECT_NEAR(one, 0.68, 0.05);
+  EXPECT_NEAR(two, 0.95, 0.05);
 }
 
 TEST(ErrorsOf, ARopeWalkedBackwardsAreNone) {

@@ -23,6 +23,9 @@ SampleFile content() {
   gate::Candidate candidate;
   candidate.nodes[63] = {0.4F, 0.5F, 0.6F};
   candidate.sigma_m[5] = 0.007F;
+  candidate.unseen_m[6] = 0.03F;
+  candidate.pixel_m = 0.0625F;
+  candidate.noise_m = 0.5F;
   candidate.draw = 2;
   candidate.behind = 1.25;
   candidate.tube.mask_recall = 0.75F;
@@ -48,6 +51,9 @@ TEST(SampleFile, GivesBackWhatWasWritten) {
   ASSERT_EQ(sample.candidates.size(), 1U);
   EXPECT_EQ(sample.candidates[0].nodes, expected.candidates[0].nodes);
   EXPECT_EQ(sample.candidates[0].sigma_m, expected.candidates[0].sigma_m);
+  EXPECT_EQ(sample.candidates[0].unseen_m, expected.candidates[0].unseen_m);
+  EXPECT_EQ(sample.candidates[0].pixel_m, 0.0625F);
+  EXPECT_EQ(sample.candidates[0].noise_m, 0.5F);
   EXPECT_EQ(sample.candidates[0].draw, 2);
   EXPECT_EQ(sample.candidates[0].behind, 1.25);
   EXPECT_EQ(sample.candidates[0].tube.mask_recall, 0.75F);

@@ -64,6 +64,10 @@ TEST_F(SharedLibrary, ExportsNothingOfItsRooms) {
   EXPECT_THAT(inner, IsEmpty());
 }
 
+TEST_F(SharedLibrary, ExportsNothingThatOnlyItsOwnSourcesCanCall) {
+  EXPECT_THAT(exports(), Not(Contains(HasSubstr("Estimator::Impl"))));
+}
+
 TEST_F(SharedLibrary, OpensTheVulkanLoaderInsteadOfLinkingIt) {
   EXPECT_THAT(run("readelf -d '" + kLibrary + "'").output, Not(HasSubstr("libvulkan")));
 }

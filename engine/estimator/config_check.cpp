@@ -1,0 +1,35 @@
+#include "estimator/config_check.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <string>
+
+namespace flowdlo::estimator {
+
+Result<void> check(const Config& config) {
+  std::string faults;
+  const auto expect = [&](bool fine, const char* field, const char* expected, int got) {
+    if (fine) return;
+    faults += fmt::format("{}Config.{}: expected {}, got {}", faults.empty() ? "" : "\n", field,
+                          expected, got);
+  };
+  expect(config.euler_steps >= 1 && config.euler_steps <= 64, "euler_steps", "1 to 64",
+         config.euler_steps);
+  expect(config.draws >= 1 && config.draws <= 64, "draws", "1 to 64", config.draws);
+  expect(config.threads >= 0 && config.threads <= 1024, "threads", "0 to 1024", config.threads);
+  expect(config.max_width >= 1 && config.max_width <= 4096, "max_width", "1 to 4096",
+         config.max_width);
+  expect(config.max_height >= 1 && config.max_height <= 4096, "max_height", "1 to 4096",
+         config.max_height);
+  expect(config.device_timeout_ms >= 0, "device_timeout_ms", "at least 0",
+         config.device_timeout_ms);
+  if (!std::isfinite(config.rope_length_m) || config.rope_length_m < 0) {
+    faults += fmt::format("{}Config.rope_length_m: expected metres, or 0 for unknown, got {}",
+                          faults.empty() ? "" : "\n", config.rope_length_m);
+  }
+  if (faults.empty()) return {};
+  return Error{ErrorCode::kBadInput, faults};
+}
+
+}  // namespace flowdlo::estimator

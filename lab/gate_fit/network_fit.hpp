@@ -1,0 +1,54 @@
+// NetworkFit: the weights of a gate::Network, by steepest descent with momentum.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "gate/network.hpp"
+
+namespace flowdlo::lab {
+
+/// A network of any size, as a fit sees it.
+struct NetworkWeights {
+  std::vector<double> hidden;    ///< [gate::kHidden, inputs]
+  std::vector<double> bent;      ///< [outputs, gate::kHidden]
+  std::vector<double> straight;  ///< [outputs, inputs]
+};
+
+struct NetworkTask {
+  std::size_t inputs = 0;  ///< features of a row; the first of each is one
+  std::size_t outputs = 0;
+  std::vector<double> rows{};  ///< [rows, inputs]
+  std::vector<double> start;   ///< [outputs] what is said of every row at first
+  double ridge = 0;            ///< penalty of squared weights of standardised features, a row
+  int steps = 0;
+  bool bends = true;       ///< false: the straight way alone
+  std::size_t stride = 1;  ///< each step takes every so many-th row, in turn
+  /// Fills what the loss of that row rises by with each output.
+  std::function<void(std::size_t row, std::span<const double> said, std::span<double> slope)>
+      slope{};
+};
+
+/// The same for the same task. Expects at least one row.
+[[nodiscard]] NetworkWeights fit_network(const NetworkTask& task);
+
+template <class Network>
+[[nodiscard]] Network network_of(const NetworkWeights& weights) {
+  Network network;
+  const auto copy = [](const std::vector<double>& from, auto& to) {
+    auto next = from.begin();
+    for (auto& row : to) {
+      std::copy_n(next, row.size(), row.begin());
+      next += static_cast<std::ptrdiff_t>(row.size());
+    }
+  };
+  copy(weights.hidden, network.hidden);
+  copy(weights.bent, network.bent);
+  copy(weights.straight, network.straight);
+  return network;
+}
+
+}  // namespace flowdlo::lab

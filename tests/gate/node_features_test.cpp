@@ -1,0 +1,82 @@
+// What sigma_m is made from, on ropes of 32 cm along x.
+#include "gate/node_features.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+namespace flowdlo::gate {
+namespace {
+
+// Where the features that these tests look at stand in a row.
+constexpr std::size_t kSpread = 2;
+constexpr std::size_t kAlone = 9;
+
+Candidate straight(int hypothesis) {
+  Candidate candidate;
+  for (std::size_t i = 0; i < kNodes; ++i) {
+    candidate.nodes[i] = {0.005F * static_cast<float>(i), 0, 0.5F};
+  }
+  candidate.sigma_m.fill(0.001F);
+  candidate.hypothesis = hypothesis;
+  candidate.radius_m = 0.003F;
+  return candidate;
+}
+
+/// Leaves the first rope behind its middle.
+Candidate branching(int hypothesis) {
+  Candidate candidate = straight(hypothesis);
+  for (std::size_t i = kNodes / 2; i < kNodes; ++i) candidate.nodes[i].y = 0.1F;
+  return candidate;
+}
+
+NodeFeatures features_of(const std::vector<Candidate>& candidates, double rival_score) {
+  if (candidates.size() == 1) {
+    return {candidates, std::vector<std::size_t>{0}, std::vector<double>{0}, 0, 0.9};
+  }
+  return {candidates, std::vector<std::size_t>{0, 1}, std::vector<double>{0, rival_score}, 0, 0.9};
+}
+
+TEST(NodeFeatures, ARivalCastsDoubtWhereItRunsElsewhere) {
+  const std::vector candidates{straight(0), branching(1)};
+  const NodeFeatures features = features_of(candidates, 0);
+  EXPECT_GT(features.of(50)[kSpread], features.of(10)[kSpread] + 3);
+}
+
+TEST(NodeFeatures, ARivalOfLowScoreCastsLess) {
+  const std::vector candidates{straight(0), branching(1)};
+  const double near = features_of(candidates, -1).of(50)[kSpread];
+  const double far = features_of(candidates, -5).of(50)[kSpread];
+  EXPECT_LT(far, near - 1);
+}
+
+TEST(NodeFeatures, ARivalWalkedTheOtherWayRunsNowhereElse) {
+  Candidate back = straight(1);
+  std::reverse(back.nodes.begin(), back.nodes.end());
+  const std::vector candidates{straight(0), back};
+  const NodeFeatures features = features_of(candidates, 0);
+  EXPECT_NEAR(features.of(0)[kSpread], features.of(32)[kSpread], 1e-9);
+}
+
+TEST(NodeFeatures, SayThatThereIsNoRival) {
+  const std::vector alone{straight(0)};
+  const std::vector two{straight(0), branching(1)};
+  EXPECT_EQ(features_of(alone, 0).of(0)[kAlone], 1);
+  EXPECT_EQ(features_of(two, 0).of(0)[kAlone], 0);
+}
+
+TEST(NodeFeatures, AreFiniteWhereACandidateIsNot) {
+  Candidate lost = branching(1);
+  lost.nodes[3].x = std::numeric_limits<float>::infinity();
+  const std::vector candidates{straight(0), lost};
+  const NodeFeatures features = features_of(candidates, 0);
+  for (std::size_t node = 0; node < kNodes; ++node) {
+    for (const double value : features.of(node)) EXPECT_TRUE(std::isfinite(value));
+  }
+}
+
+}  // namespace
+}  // namespace flowdlo::gate
