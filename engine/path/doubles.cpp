@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "geometry/quantile.hpp"
+#include "path/cut_ends.hpp"
 #include "path/midline.hpp"
 #include "path/stations.hpp"
 
@@ -27,25 +28,8 @@ constexpr float kAslantLeast = 1.33F;  // seen aslant, one partly hides the othe
 constexpr float kMeanMost = 2.4F;
 constexpr float kShortest = 4.0F;  // widths; a flat crossing is shorter
 constexpr float kShortestStepped = 2.0F;
-constexpr float kShortestPx = 20.0F;    // what frays leave on thin ropes is shorter too
-constexpr float kTrimWidths = 0.3F;     // what a round tip takes from the stretch
-constexpr float kTangentWidths = 3.0F;  // what tells the direction at its end
-constexpr float kRunOutWidths = 2.5F;   // from there to where the strands part,
-constexpr float kPartWidths = 12.0F;    // from a fork on,
-constexpr float kCutOffWidths = 8.0F;   // or an occluder aslant hides both
-constexpr float kStepWidths = 2.0F;     // within this way two strands become one
-constexpr float kStepKept = 1.5F;       // and stay one for this long,
-constexpr float kSingleLeast = 0.75F;   // this wide at least
-constexpr float kSingleMost = 1.18F;    // and at most
-constexpr float kPixelNoise = 0.8F;     // and a thin one this many pixels more, beside
-constexpr float kClearMean = 1.85F;     // what is this much wider in the mean
-constexpr std::array<float, 3> kFitWidths{1.5F, 2.5F, 4.0F};  // of a line beside a step,
-constexpr float kBlurWidths = 0.5F;                           // beyond what blurs it
-constexpr float kSureSigmas = 2.0F;                           // and believed from this on
-constexpr float kStepLeast = 0.1F;    // aside from the line the one lies at least this far
-constexpr float kTurnWidths = 1.0F;   // a strand that turns back takes this at the tip
-constexpr float kCornerDeep = 0.25F;  // so far before the edge a mask cut off
-constexpr float kCornerAside = 0.8F;  // reaches so far aside, a round one does not
+constexpr float kShortestPx = 20.0F;  // what frays leave on thin ropes is shorter too
+constexpr float kClearMean = 1.85F;   // what is this much wider in the mean
 constexpr float kStandsSeamPx = 8.0F;
 constexpr float kLeastWidthPx = 1.5F;
 constexpr float kForkedLeast = 1.18F;  // times its branches' width: a stem of two strands
@@ -59,7 +43,11 @@ constexpr std::size_t kFewestStations = 4;
 class Cutter {
  public:
   Cutter(const Graph& graph, const cv::Mat& mask, float width_px)
-      : graph_(graph), mask_(mask), size_px_(width_px), narrowest_px_(width_px) {}
+      : graph_(graph),
+        mask_(mask),
+        size_px_(width_px),
+        narrowest_px_(width_px),
+        ends_(graph, mask, width_px) {}
 
   // To cut nothing but what is too wide for one strand whatever its noise.
   void only_clear() { least_ = kClearMean; }
@@ -74,7 +62,7 @@ class Cutter {
       const auto length = static_cast<float>(last - first);
       const float mean = sum / length;
       const float width_px = size_px_ * line[(first + last) / 2].nearer;
-      clear_ = mean > kClearMean;
+      ends_.clear = mean > kClearMean;
       const bool brief = mean > kMeanLeast && stepped(line, first, last - 1);
       const float shortest = (brief ? kShortestStepped : kShortest) * width_px;
       if (length >= std::max(shortest, kShortestPx) && mean < kMeanMost &&
@@ -92,9 +80,9 @@ class Cutter {
   void cut_stem(std::size_t stem, const std::vector<Line>& lines) {
     if (least_ > 0) return;
     const Segment& segment = graph_.segments[stem];
-    const int tip = at_tip(segment, 0) ? 0 : 1;
-    const bool looped = at_tip(segment, tip) && loops(stem, 1 - tip);
-    if (!looped && (!forks(segment, 0) || !forks(segment, 1))) return;
+    const int tip = graph_.at_tip(segment, 0) ? 0 : 1;
+    const bool looped = graph_.at_tip(segment, tip) && loops(stem, 1 - tip);
+    if (!looped && (!graph_.forks(segment, 0) || !graph_.forks(segment, 1))) return;
     std::vector<float> branches;
     for (const int node : segment.node) {
       const std::size_t before = branches.size();
@@ -118,8 +106,8 @@ class Cutter {
     if (ratio < (looped ? kLoopedLeast : kForkedLeast) || ratio > kForkedMost) return;
     if (quantile(sizes, 0.85F) > kForkedSpread * quantile(sizes, 0.15F)) return;
     Cutter narrow(graph_, mask_, branch_px);
-    narrow.clear_ = ratio > kClearMean;
-    narrow.turns_ = !looped;
+    narrow.ends_.clear = ratio > kClearMean;
+    narrow.ends_.turns = !looped;
     narrow.draw(segment, line, static_cast<int>(trim), static_cast<int>(line.size() - trim) - 1);
     if (narrow.found_.empty()) return;
     found_.push_back(std::move(narrow.found_.front()));
@@ -143,14 +131,6 @@ class Cutter {
     }
     return i < count && wide(line[i]);
   }
-  [[nodiscard]] bool single(const Station& station) const {
-    const float most = clear_ ? std::max(kSingleMost, 1 + kPixelNoise / size_px_) : kSingleMost;
-    return station.whole && widths(station) > kSingleLeast && widths(station) < most;
-  }
-  [[nodiscard]] bool at_tip(const Segment& segment, int side) const {
-    return !segment.ring() && graph_.nodes[segment.node[side]].ends.size() == 1;
-  }
-
   // What comes before a stretch, seen from it, and what follows.
   static std::pair<Line, Line> around(const Line& line, int first, int last) {
     Line before(line.begin(), line.begin() + first);
@@ -162,24 +142,20 @@ class Cutter {
   [[nodiscard]] bool stepped(const Line& line, int first, int last) const {
     const float width_px = size_px_ * line[(first + last) / 2].nearer;
     const auto [before, after] = around(line, first, last);
-    return step(before, width_px) != nullptr || step(after, width_px) != nullptr;
+    return ends_.step(before, width_px) != nullptr || ends_.step(after, width_px) != nullptr;
   }
 
   // Whether both ends of a stretch show where a second strand comes or goes: a fork, or a step.
   [[nodiscard]] bool anchored(const Segment& segment, const Line& line, int first, int last) const {
     const float width_px = size_px_ * line[(first + last) / 2].nearer;
     const auto [before, after] = around(line, first, last);
-    return (forks(segment, 0) || step(before, width_px) != nullptr) &&
-           (forks(segment, 1) || step(after, width_px) != nullptr);
+    return (graph_.forks(segment, 0) || ends_.step(before, width_px) != nullptr) &&
+           (graph_.forks(segment, 1) || ends_.step(after, width_px) != nullptr);
   }
-  [[nodiscard]] bool forks(const Segment& segment, int side) const {
-    return !segment.ring() && graph_.nodes[segment.node[side]].ends.size() > 2;
-  }
-
   // Whether a fork's two other branches are the ends of one segment.
   [[nodiscard]] bool loops(std::size_t stem, int side) const {
     const Segment& segment = graph_.segments[stem];
-    if (!forks(segment, side)) return false;
+    if (!graph_.forks(segment, side)) return false;
     std::vector<int> others;
     for (const int end : graph_.nodes[static_cast<std::size_t>(segment.node[side])].ends) {
       if (static_cast<std::size_t>(end / 2) != stem) others.push_back(end / 2);
@@ -206,165 +182,24 @@ class Cutter {
     for (int i = first; i <= last; ++i) points.push_back(line[i].middle_px);
     points = smoothed(std::move(points), std::max(1, static_cast<int>(0.5F * width_px)));
     const auto [before, after] = around(line, first, last);
-    const bool e1 = end_at(points, after, at_tip(segment, 1)) || part_at(points, segment, 1);
+    const bool back = ends_.find(points, segment, 1, after);
     std::reverse(points.begin(), points.end());
-    const bool e2 = end_at(points, before, at_tip(segment, 0)) || part_at(points, segment, 0);
-    if (!e1 || !e2) return;
+    const bool front = ends_.find(points, segment, 0, before);
+    if (!back || !front) return;
     // A whole piece of the mask as wide as this is one rope.
-    if (at_tip(segment, 0) && at_tip(segment, 1) && !step(before, width_px) &&
-        !step(after, width_px)) {
+    if (graph_.at_tip(segment, 0) && graph_.at_tip(segment, 1) && !ends_.step(before, width_px) &&
+        !ends_.step(after, width_px)) {
       return;
     }
     found_.push_back(std::move(points));
-  }
-
-  // Ends the line at its back, where the strands part: at the mask's edge between them, or beside
-  // the step where one stops, or, where both turn into each other, a width short of the tip. False
-  // when none of these is near. `after` is what follows on the line.
-  [[nodiscard]] bool end_at(Points& points, const Line& after, bool tip) const {
-    const float nearer = after.empty() ? 1 : after.front().nearer;
-    const float width_px = size_px_ * nearer;
-    const auto trim = static_cast<std::size_t>(kTrimWidths * width_px);
-    if (points.size() < trim + 4) return false;
-    points.resize(points.size() - trim);
-    const auto back = std::min(points.size() - 1,
-                               static_cast<std::size_t>(std::max(4.0F, kTangentWidths * width_px)));
-    const Vector2f along = points.back() - points[points.size() - 1 - back];
-    if (along.norm() <= 0) return false;
-    const Vector2f direction = along.normalized();
-    const Vector2f from = points.back();
-    if (const Station* station = step(after, width_px)) {
-      const Vector2f left(-direction.y(), direction.x());
-      const float aside = aside_at(points, after, *station, left, width_px);
-      if (aside == 0) return false;
-      const float side = (station->normal.dot(left) > 0) == (aside < 0) ? 1.0F : -1.0F;
-      const Vector2f corner = station->edge(side);
-      points.push_back(corner + (corner - station->middle_px).normalized());
-      return true;
-    }
-    const bool cut_off = tip && !after.empty() && !after.front().whole;
-    const bool far = cut_off || (tip && !turns_);
-    const float most = (far ? kCutOffWidths : kRunOutWidths) * width_px + 2;
-    const float to_edge = reach(mask_, from, direction, most);
-    if (to_edge + kScanStepPx >= most) return false;
-    if (!tip || !turns_ || !round(from + to_edge * direction, direction, width_px)) {
-      points.push_back(from + (to_edge + 1) * direction);
-      return true;
-    }
-    const Vector2f edge = from + to_edge * direction;
-    while (points.size() > 1 && (points.back() - edge).norm() < kTurnWidths * width_px) {
-      points.pop_back();
-    }
-    return points.size() > 1;
-  }
-
-  // Ends the line at its back where the two branches of the segment's fork part: midway between
-  // them from the fork on, to the first point that is no mask. False when there is none near.
-  [[nodiscard]] bool part_at(Points& points, const Segment& segment, int side) const {
-    if (!forks(segment, side)) return false;
-    const Node& node = graph_.nodes[static_cast<std::size_t>(segment.node[side])];
-    std::vector<int> ends;
-    for (const int end : node.ends) {
-      const Segment& branch = graph_.segments[static_cast<std::size_t>(end / 2)];
-      if (&branch != &segment) ends.push_back(end);
-    }
-    const float near_px = kRunOutWidths * size_px_ + 2;
-    if (ends.size() != 2 || (points.back() - node.position_px).norm() > near_px) return false;
-    Points on = points;
-    on.push_back(node.position_px);
-    const auto most = static_cast<std::size_t>(kPartWidths * size_px_) + 2;
-    for (std::size_t i = 1; i < most; ++i) {
-      const Vector2f* a = along_branch(ends[0], i);
-      const Vector2f* b = along_branch(ends[1], i);
-      if (a == nullptr || b == nullptr) return false;
-      on.push_back(0.5F * (*a + *b));
-      if (lit(mask_, on.back())) continue;
-      points = std::move(on);
-      return true;
-    }
-    return false;
-  }
-
-  // The point `i` steps from an end of a segment; before its middle, where it ends in no tip; null
-  // beyond.
-  [[nodiscard]] const Vector2f* along_branch(int end, std::size_t i) const {
-    const Segment& branch = graph_.segments[static_cast<std::size_t>(end / 2)];
-    const Points& points = branch.points_px;
-    const std::size_t steps = at_tip(branch, 1 - end % 2) ? i : 2 * i;
-    if (steps >= points.size()) return nullptr;
-    return end % 2 == 0 ? &points[i] : &points[points.size() - 1 - i];
-  }
-
-  // How far to the left of the back of `points` the line lies that goes on from `station`. The
-  // shorter lines are fitted the less they bend, the longer the less noise tells. 0: unknown.
-  [[nodiscard]] float aside_at(const Points& points, const Line& after, const Station& station,
-                               const Vector2f& left, float width_px) const {
-    const auto skip = static_cast<std::size_t>(kBlurWidths * width_px);
-    const auto from = static_cast<std::size_t>(&station - after.data()) + skip;
-    float best_px = left.dot(station.middle_px - ahead(points, station.middle_px, width_px));
-    if (std::abs(best_px) < kStepLeast * width_px) best_px = 0;
-    float surest = kSureSigmas;
-    for (const float widths : kFitWidths) {
-      const auto most = static_cast<std::size_t>(widths * width_px) + 4;
-      Points before;
-      for (std::size_t i = skip; i < std::min(skip + most, points.size()); ++i) {
-        before.push_back(points[points.size() - 1 - i]);
-      }
-      Points behind;
-      for (std::size_t i = from; i < std::min(from + most, after.size()); ++i) {
-        if (!single(after[i])) break;
-        behind.push_back(after[i].middle_px);
-      }
-      const Aside aside = step_aside(before, behind, left);
-      if (aside.sigma_px <= 0 || std::abs(aside.px) > width_px) continue;
-      const float sure = std::abs(aside.px) / aside.sigma_px;
-      if (sure > surest) {
-        surest = sure;
-        best_px = aside.px;
-      }
-    }
-    return best_px;
-  }
-
-  // Where `points`, bending on as they do, come nearest to `p`.
-  static Vector2f ahead(const Points& points, const Vector2f& p, float width_px) {
-    const std::size_t last = points.size() - 1;
-    const auto half = static_cast<std::size_t>(std::max(2.0F, 0.5F * kTangentWidths * width_px));
-    const Vector2f& from = points[last];
-    const Vector2f& middle = points[last - std::min(half, last / 2)];
-    const Vector2f& start = points[last - 2 * std::min(half, last / 2)];
-    const float step = std::max(1e-3F, (from - middle).norm());
-    const float t = (p - from).dot(from - middle) / (step * step);
-    return from + t * (from - middle) + 0.5F * t * (t + 1) * (from - 2 * middle + start);
-  }
-
-  // Where the line goes on as one strand, soon and for long enough; null where it does not.
-  [[nodiscard]] const Station* step(const Line& after, float width_px) const {
-    const auto reach_px = static_cast<std::size_t>(kStepWidths * width_px) + 1;
-    const auto kept = static_cast<std::size_t>(kStepKept * width_px);
-    for (std::size_t i = 0; i < reach_px && i + kept < after.size(); ++i) {
-      if (single(after[i]) && single(after[i + kept / 2]) && single(after[i + kept])) {
-        return &after[i + kept / 8];
-      }
-    }
-    return nullptr;
-  }
-
-  // Whether the mask ends at `edge` as round as a strand that turns back.
-  [[nodiscard]] bool round(const Vector2f& edge, const Vector2f& direction, float width_px) const {
-    const Vector2f at = edge - kCornerDeep * width_px * direction;
-    const Vector2f left(-direction.y(), direction.x());
-    return !lit(mask_, at + kCornerAside * width_px * left) &&
-           !lit(mask_, at - kCornerAside * width_px * left);
   }
 
   const Graph& graph_;
   const cv::Mat& mask_;
   float size_px_;
   float narrowest_px_;
-  float least_ = 0;     // widths: nothing narrower is cut
-  bool turns_ = true;   // a strand may turn back at a round tip
-  bool clear_ = false;  // the stretch at hand is too wide for one strand whatever its noise
+  float least_ = 0;  // widths: nothing narrower is cut
+  CutEnds ends_;
   std::vector<Points> found_;
 };
 

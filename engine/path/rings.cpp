@@ -26,9 +26,9 @@ constexpr float kBesideWidths = 1.0F;   // for so long at least
 constexpr float kBesideExcess = 0.55F;  // square widths more than one strand takes
 constexpr float kBesideClear = 2.2F;    // times what frays add elsewhere
 constexpr float kNotchLeast = 0.10F;    // how much narrower a notch is, in usual widths,
-constexpr float kNotchSigmas = 4.0F;    // and in deviations of the width
 constexpr float kNotchClear = 1.1F;     // times the deepest elsewhere
 constexpr float kFitWidths = 4.0F;      // of a line to each side of a step
+constexpr float kTipWidths = 0.4F;      // where a tip's middle line ends
 constexpr float kStepWidths = 0.6F;     // about which it is blurred
 constexpr float kAsideLeast = 0.12F;    // widths: what tells the side that an end lies on
 
@@ -140,7 +140,6 @@ std::optional<int> notch(const Ring& ring) {
   for (int i = 0; i < count; ++i) width.push_back(ring.mean_width(i, half));
   const auto least = static_cast<int>(std::min_element(width.begin(), width.end()) - width.begin());
   const float usual = quantile(width, 0.5F);
-  const float sigma = 0.5F * (usual - quantile(width, 0.023F));
   const float dip = usual - width[static_cast<std::size_t>(least)];
   const int apart = static_cast<int>(2 * ring.size_px()) + 2;
   float elsewhere = 0;
@@ -148,7 +147,6 @@ std::optional<int> notch(const Ring& ring) {
     elsewhere = std::max(elsewhere, usual - width[static_cast<std::size_t>(ring.wrap(i))]);
   }
   if (dip < std::max(kNotchLeast, kNotchClear * elsewhere)) return std::nullopt;
-  (void)sigma;
   return least;
 }
 
@@ -177,7 +175,8 @@ Points passed_twice(const Ring& ring, const Beside& ends) {
   const float off = 0.5F * side;
   Points points;
   const int count = ring.count();
-  for (int i = ends.first; i <= ends.last + count; ++i) {
+  const int tip = std::min(static_cast<int>(kTipWidths * ring.size_px()), inside / 3);
+  for (int i = ends.first + tip; i <= ends.last + count - tip; ++i) {
     const bool leaves = i <= ends.last;
     const bool arrives = i >= ends.first + count;
     const float width = ring.width(i, 1) * ring.usual_px(i);

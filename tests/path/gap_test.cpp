@@ -46,6 +46,20 @@ TEST(Gap, ThreePiecesBecomeOnePath) {
   EXPECT_LT(frechet(traced->ranked.front(), wave()), 12.0F);
 }
 
+TEST(Gap, ALongPieceFarAwayIsLinkedRatherThanLeftOut) {
+  const Curve near{{40, 300}, {200, 300}};
+  const Curve far{{500, 120}, {600, 80}};
+  const auto traced = path::trace(Canvas().stroke(near, 4).stroke(far, 4).frame());
+
+  ASSERT_TRUE(traced);
+  const path::Path& best = traced->ranked.front();
+  for (const cv::Point& end : {near.front(), far.back()}) {
+    EXPECT_LT(std::min(distance_to({best.points_px.front()}, end),
+                       distance_to({best.points_px.back()}, end)),
+              6.0F);
+  }
+}
+
 TEST(Gap, LinksFollowTheDirectionNotTheNearestTip) {
   // Two parallel strands cut by one bar: the tips beside each other are nearer than those across.
   const Curve curve = [] {

@@ -116,6 +116,40 @@ TEST(Occluder, CutLengthwiseTheRopeKeepsItsMiddle) {
   EXPECT_LT(farthest_off(traced->ranked.front(), dense(curve)), 1.6F);
 }
 
+// A rope on a table seen aslant: the lower in the image, the nearer, four millimetres a row. The
+// rope stands before what lies behind it by about its thickness over the slope's cosine.
+constexpr float kOnSlope_m = kRope_m - 0.028F;
+Canvas on_a_slope() {
+  const Curve line{{100, 240}, {540, 240}};
+  Canvas canvas;
+  for (int v = 0; v < canvas.mask.rows; ++v) {
+    for (int u = 0; u < canvas.mask.cols; ++u) {
+      canvas.depth_m[static_cast<std::size_t>(v * canvas.mask.cols + u)] =
+          kRope_m + 0.004F * static_cast<float>(240 - v);
+    }
+  }
+  return canvas.stroke(line, 9).depth(line, 9, kOnSlope_m);
+}
+
+path::Sight below(const Canvas& canvas) {
+  const auto region = path::clean(canvas.frame());
+  const Vector2f p(320.0F - static_cast<float>(region->offset_px.x),
+                   240.0F - static_cast<float>(region->offset_px.y));
+  return path::Cover(*region, canvas.frame(), 9).beyond(p, {0, 1}, kOnSlope_m, 20);
+}
+
+TEST(Cover, ATableSeenAslantHidesNothing) { EXPECT_NE(below(on_a_slope()), path::Sight::kHidden); }
+
+TEST(Cover, WhatStandsOnATableSeenAslantHides) {
+  Canvas canvas = on_a_slope();
+  for (int v = 244; v < 300; ++v) {
+    for (int u = 300; u < 340; ++u) {
+      canvas.depth_m[static_cast<std::size_t>(v * canvas.mask.cols + u)] -= 0.06F;
+    }
+  }
+  EXPECT_EQ(below(canvas), path::Sight::kHidden);
+}
+
 TEST(Cover, TellsWhatIsNearerFromWhatIsFartherThanTheRope) {
   const Curve curve{{60, 240}, {580, 240}};
   Canvas canvas = rope({curve}, 20);
