@@ -32,7 +32,7 @@ constexpr float kGapWidths = 6.0F;      // no curve costs less a width than one 
 constexpr float kGapStart = 0.5F;       // a gap costs this beside its curve
 constexpr float kGapAtCrossing = 1.5F;  // more, where one side is no tip
 constexpr float kGapAtCutCrossing = 0.3F;  // less, where an occluder begins there
-constexpr float kMostGapCost = 16.0F;
+constexpr float kMostGapCost = 16.0F;      // or what leaving out a longer strand costs
 constexpr float kDepthWeight = 1.5F;
 constexpr float kMostDepthCost = 5.0F;
 constexpr float kDepthNoise_m = 0.002F;
@@ -258,15 +258,21 @@ class Builder {
 
   void link(int a, int b, float extra) {
     if (a / 2 == b / 2 || strands_.folds(a, b) || strands_.folds(b, a)) return;
-    float cost = extra + cost_across(strands_.end(a), strands_.end(b));
-    if (cost > kMostGapCost) cost = kMostGapCost + 4 * std::log(cost / kMostGapCost);
-    add(a, b, cost, true);
+    const float cost = extra + cost_across(strands_.end(a), strands_.end(b), most_for(a, b));
+    if (cost < most_for(a, b)) add(a, b, cost, true);
   }
 
-  [[nodiscard]] float cost_across(const StrandEnd& a, const StrandEnd& b) const {
+  // No gap costs more than leaving out what lies beyond it.
+  [[nodiscard]] float most_for(int a, int b) const {
+    const float covers_px =
+        std::max(strands_.list[a / 2].covers_px, strands_.list[b / 2].covers_px);
+    return std::max(kMostGapCost, kLeftOutCost * covers_px / strands_.scale_px);
+  }
+
+  [[nodiscard]] float cost_across(const StrandEnd& a, const StrandEnd& b, float most) const {
     const float scale = strands_.scale_px;
     const float straight = kGapStart + (a.point_px - b.point_px).norm() / (kGapWidths * scale);
-    if (straight >= kMostGapCost) return straight;
+    if (straight >= most) return straight;
     return kGapStart + gap_cost(a, b, cover_, scale) +
            depth_misfit(a, b, strands_.width_px, frame_.intrinsics.fx, true);
   }

@@ -10,11 +10,10 @@
 namespace flowdlo::path {
 namespace {
 
-constexpr float kEndAtCrossing = 1.5F;    // an end that lies on another strand
-constexpr float kEndAtCut = 1.0F;         // an end where an occluder begins
-constexpr float kUncoveredWidths = 1.5F;  // cost of a width of length left out
-constexpr float kLooseTip = 1.0F;         // a branch left out though it ends in a tip
-constexpr float kMinorWidths = 1.5F;      // strands below this do not make traversals distinct
+constexpr float kEndAtCrossing = 1.5F;  // an end that lies on another strand
+constexpr float kEndAtCut = 1.0F;       // an end where an occluder begins
+constexpr float kLooseTip = 1.0F;       // a branch left out though it ends in a tip
+constexpr float kMinorWidths = 1.5F;    // strands below this do not make traversals distinct
 constexpr std::uint64_t kMix = 0x9E3779B97F4A7C15ULL;
 constexpr std::size_t kMostStates = 24000;
 constexpr std::size_t kBeamWidth = 24;
@@ -40,7 +39,7 @@ class Searcher {
     bound_.resize(n);
     for (std::size_t s = 0; s < n; ++s) {
       const Strand& strand = strands.list[s];
-      uncovered_[s] = kUncoveredWidths * strand.covers_px / strands.scale_px;
+      uncovered_[s] = kLeftOutCost * strand.covers_px / strands.scale_px;
       const bool loose = strand.ends[0].tip() != strand.ends[1].tip();
       if (loose) uncovered_[s] += kLooseTip;
       bound_[s] = uncovered_[s];

@@ -31,8 +31,8 @@ constexpr float kStepSpread = 1.2F;
 constexpr float kStepBlur = 1.0F;    // that is this long
 constexpr float kRunSpread = 1.25F;  // and even
 constexpr double kRoundPx2 = 0.01;   // what rounding adds to squared residuals
-constexpr float kThinPx = 6.0F;  // the distances to the edge of ropes thinner than this are rough
-constexpr float kUsualShare = 1.5F;     // of the narrow parts' width: usual up to this
+constexpr float kThinPx = 2.0F;      // of ropes thinner than this distances to the edge tell little
+constexpr float kUsualShare = 1.5F;  // of the narrow parts' width: usual up to this
 constexpr float kSingleShare = 1.3F;    // of the narrow parts' width: one strand up to this
 constexpr float kFewestNarrow = 0.04F;  // share of the stations that are one strand
 
