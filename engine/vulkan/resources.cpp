@@ -22,6 +22,9 @@ constexpr VkMemoryPropertyFlags kLocal = VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT;
 
 std::size_t index_of(Home home) { return static_cast<std::size_t>(home); }
 
+/// Gives the memory back: `content = {}` would only empty it.
+void release(std::vector<float>& content) { std::vector<float>().swap(content); }
+
 }  // namespace
 
 std::uint32_t Resources::add(Home home, VkDeviceSize bytes, std::string_view name,
@@ -80,7 +83,7 @@ void Resources::fill_own() {
     zeros_to(item.offset);
     std::memcpy(memory + item.offset, item.content.data(), item.bytes);
     filled = item.offset + item.bytes;
-    item.content = {};
+    release(item.content);
   }
   zeros_to(buffers_[index_of(Home::kDevice)].size());
 }
@@ -100,7 +103,7 @@ Result<Buffer> Resources::record_upload(const Device& device, VkCommandBuffer co
     std::memcpy(staging->mapped() + offset, item.content.data(), item.bytes);
     copies.push_back({.srcOffset = offset, .dstOffset = item.offset, .size = item.bytes});
     offset += item.bytes;
-    item.content = {};
+    release(item.content);
   }
   const auto flushed = staging->flush(device);
   if (!flushed) return flushed.error();
