@@ -21,6 +21,7 @@
 #include "gate/calibrated.hpp"
 #include "gate/gate.hpp"
 #include "prior/prior.hpp"
+#include "weights/kept_file.hpp"
 #include "weights/weights.hpp"
 
 namespace flowdlo {
@@ -84,6 +85,15 @@ flow::SamplerConfig sampler_config(const Config& config) {
           .capacity = {.cloud_points = pixels / kCloudShare,
                        .field_texels = pixels / 4,
                        .image_pixels = pixels}};
+}
+
+/// The weights as long as `loaded` lives, then made anew from their file: for a frame larger than
+/// planned and for a lost device.
+flow::WeightsSource source_of(const weights::Loaded& loaded) {
+  return [file = loaded.file, first = std::weak_ptr(loaded.weights)] {
+    auto weights = first.lock();
+    return weights ? weights : std::make_shared<const weights::Weights>(file->decoded());
+  };
 }
 
 /// The probability that the hypothesis the estimate follows is right. A runner-up's can only come
@@ -157,7 +167,8 @@ Estimate conclude(const Returned& returned, const std::vector<estimator::Hypothe
 
 struct Estimator::Impl {
   Config config;
-  std::shared_ptr<const weights::Weights> weights;
+  weights::Metadata metadata;
+  flow::WeightsSource weights;
   std::string device;
   flow::Sampler sampler;
 
@@ -177,15 +188,17 @@ Result<std::unique_ptr<Estimator::Impl>> Estimator::Impl::create(const Config& w
   // Opening a driver takes as long as reading the weights: side by side, where a thread is to be
   // had.
   auto choice = std::async([&] { return estimator::choose_back_end(wanted); });
-  auto loaded = weights::load(*file);
+  auto loaded = weights::load_and_keep(*file);
   auto back_end = choice.get();
   if (!loaded) return loaded.error();
-  const auto weights = std::make_shared<const weights::Weights>(*std::move(loaded));
-  const Config config = resolved(wanted, weights->metadata);
+  const weights::Metadata metadata = loaded->weights->metadata;
+  const Config config = resolved(wanted, metadata);
   if (!back_end) return back_end.error();
+  const auto weights = source_of(*loaded);
   auto sampler = flow::Sampler::create(weights, back_end->make_program, sampler_config(config));
   if (!sampler) return sampler.error();
-  return std::make_unique<Impl>(Impl{config, weights, back_end->name, *std::move(sampler)});
+  return std::make_unique<Impl>(
+      Impl{config, metadata, weights, back_end->name, *std::move(sampler)});
 }
 
 /// The model's predictions. Where the device was left to us, a lost one is replaced by the CPU.
@@ -209,7 +222,7 @@ weights::PriorKind Estimator::Impl::prior_kind() const {
     case PriorChoice::kOfWeights:
       break;
   }
-  return weights->metadata.variant.prior_kind;
+  return metadata.variant.prior_kind;
 }
 
 /// Whether the fitted score decides. It was fitted to the model that comes with FlowDLO.
@@ -222,7 +235,6 @@ bool Estimator::Impl::calibrated() const {
     case GateChoice::kOfWeights:
       break;
   }
-  const weights::Metadata& metadata = weights->metadata;
   return metadata.trained && metadata.variant.head_channels == 4 &&
          metadata.variant.prior_kind == weights::PriorKind::kRefined;
 }
