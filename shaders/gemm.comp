@@ -2,7 +2,7 @@
 //
 //   thesis    Sec. 3.4, every dense layer of the cross-attention and the encoder
 //   in        x         [rows, K]           f32, as RGBA texels
-//             weight    [N/256][K/4][256]   RGBA texels: four consecutive k of one column
+//             weight    [N/256][K/4][256]   f32 or f16 as RGBA texels: four consecutive k of one column
 //             bias      [N]                 f32, as RGBA texels
 //             residual  [rows, N]           f32, as RGBA texels; may be y
 //   out       y         [rows, N]           f32

@@ -85,7 +85,9 @@ DenseLayer keep_layer(Plan& plan, std::string_view name, int out, int in,
   };
   switch (layer.packing) {
     case Packing::kPanels:
-      layer.weight = keep(out, in, pack_panels(weight, out, in));
+      layer.halves = are_halves(weight);
+      layer.weight = layer.halves ? keep(out, in / 2, pack_halves(pack_panels(weight, out, in)))
+                                  : keep(out, in, pack_panels(weight, out, in));
       layer.bias = keep(1, out, {bias.begin(), bias.end()});
       break;
     case Packing::kRows:

@@ -10,7 +10,7 @@
 namespace flowdlo::vulkan {
 
 enum class Packing {
-  kPanels,  ///< in a multiple of 16, out of 256: [out/256][in/4][256] texels; gemm
+  kPanels,  ///< in a multiple of 16, out of 256: [out/256][in/4][256] texels, f32 or f16; gemm
   kRows,    ///< the same, [out, in] as it is; tile_gemm
   kHalves,  ///< the same, [out, in] of f16; tile_gemm and matrix_gemm
   kNarrow,  ///< in at most 8, out 256: [256, 8], zeros from `in` on; narrow
@@ -22,6 +22,7 @@ struct DenseLayer {
   Packing packing = Packing::kNone;
   int in = 0;
   int out = 0;
+  bool halves = false;  ///< of kPanels: its texels are f16
   ops::Tensor weight;
   ops::Tensor bias;
 };

@@ -15,12 +15,14 @@ void record_simd_gemm(Plan& plan, const ops::Linear& op, const DenseLayer& layer
   for (const Window rows : Plan::windows(op.x.rows, plan.most_texels() / row_texels)) {
     for (int panel = 0; panel < layer.out / kPanel; panel += most_panels) {
       const int panels = std::min(most_panels, layer.out / kPanel - panel);
-      const VkDeviceSize panel_bytes = VkDeviceSize{16} * static_cast<VkDeviceSize>(panel_texels);
+      const VkDeviceSize panel_bytes =
+          VkDeviceSize{layer.halves ? 8U : 16U} * static_cast<VkDeviceSize>(panel_texels);
       const Range bias = plan.whole(layer.bias);
       const GemmCall call{
           .x = {plan.rows(op.x, rows)},
           .weight = {{layer.weight.id, panel_bytes * static_cast<VkDeviceSize>(panel),
-                      panel_bytes * static_cast<VkDeviceSize>(panels)}},
+                      panel_bytes * static_cast<VkDeviceSize>(panels)},
+                     layer.halves},
           .bias = {bias},
           .residual = {op.residual ? plan.rows(*op.residual, rows) : bias},
           .y = {plan.rows(op.y, rows)}};
