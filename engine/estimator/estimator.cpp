@@ -2,6 +2,9 @@
 #include "flowdlo/estimator.hpp"
 
 #include <fmt/format.h>
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
 
 #include <algorithm>
 #include <cmath>
@@ -94,6 +97,14 @@ flow::WeightsSource source_of(const weights::Loaded& loaded) {
     auto weights = first.lock();
     return weights ? weights : std::make_shared<const weights::Weights>(file->decoded());
   };
+}
+
+/// To the system, what making an estimator used once: a driver's compiler and the decoded weights
+/// leave 8 to 15 MB of free pieces between what stays.
+void return_free_memory() {
+#ifdef __GLIBC__
+  ::malloc_trim(0);
+#endif
 }
 
 /// The probability that the hypothesis the estimate follows is right. A runner-up's can only come
@@ -300,6 +311,7 @@ Result<Estimate> Estimator::Impl::estimate(const Frame& frame, Tensors* tensors)
 Result<Estimator> Estimator::create(const Config& config) {
   auto impl = guarded("Estimator::create", [&] { return Impl::create(config); });
   if (!impl) return impl.error();
+  return_free_memory();
   return Estimator(*std::move(impl));
 }
 
