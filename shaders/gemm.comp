@@ -23,9 +23,9 @@
 #include "push_constants.h"
 
 layout(constant_id = 0) const int lanes = 8;
-layout(constant_id = 1) const int tile_rows = 16;
+layout(constant_id = 1) const int tile_rows = 32;    // a multiple of four
 layout(constant_id = 2) const int tile_columns = 8;  // a multiple of four
-layout(constant_id = 3) const int unroll = 2;        // texels of four k in flight; divides K / 4
+layout(constant_id = 3) const int unroll = 1;        // texels of four k in flight; divides K / 4
 layout(constant_id = 4) const int activation = 0;    // ops::Activation
 layout(constant_id = 5) const int has_residual = 0;
 layout(local_size_x_id = 0) in;
@@ -40,6 +40,7 @@ layout(binding = 4, std430) writeonly buffer Y { vec4 y[]; };
 const int kPanel = 256;  // columns that lie side by side in `weight`
 const int kPanelQuads = kPanel / 4;
 const int quads = tile_columns / 4;
+const int kRowBlock = 4;  // rows that share a weight in registers
 const int row_texels = (tile_rows + lanes - 1) / lanes;  // a lane's share of a column of x's tile
 
 void main() {
@@ -79,24 +80,27 @@ void main() {
         b[u * tile_columns + j] = texelFetch(weight, weight_base + (k + u) * kPanel + column);
       }
     }
-    [[unroll]] for (int i = 0; i < tile_rows; ++i) {
-      vec4 x_row[unroll];
-      [[unroll]] for (int u = 0; u < unroll; ++u) {
-        vec4 held = a[u * row_texels + i / lanes];
-        uint holder = uint(i % lanes);
-        x_row[u] = vec4(subgroupShuffle(held.x, holder), subgroupShuffle(held.y, holder),
-                        subgroupShuffle(held.z, holder), subgroupShuffle(held.w, holder));
+    [[unroll]] for (int first = 0; first < tile_rows; first += kRowBlock) {
+      vec4 x_row[kRowBlock * unroll];
+      [[unroll]] for (int r = 0; r < kRowBlock; ++r) {
+        int i = first + r;
+        [[unroll]] for (int u = 0; u < unroll; ++u) {
+          vec4 held = a[u * row_texels + i / lanes];
+          uint holder = uint(i % lanes);
+          x_row[r * unroll + u] =
+              vec4(subgroupShuffle(held.x, holder), subgroupShuffle(held.y, holder),
+                   subgroupShuffle(held.z, holder), subgroupShuffle(held.w, holder));
+        }
       }
       [[unroll]] for (int j = 0; j < tile_columns; ++j) {
-        float total = sum[i * tile_columns + j];
         [[unroll]] for (int u = 0; u < unroll; ++u) {
           vec4 w = b[u * tile_columns + j];
-          total += x_row[u].x * w.x;
-          total += x_row[u].y * w.y;
-          total += x_row[u].z * w.z;
-          total += x_row[u].w * w.w;
+          [[unroll]] for (int c = 0; c < 4; ++c) {
+            [[unroll]] for (int r = 0; r < kRowBlock; ++r) {
+              sum[(first + r) * tile_columns + j] += x_row[r * unroll + u][c] * w[c];
+            }
+          }
         }
-        sum[i * tile_columns + j] = total;
       }
     }
   }

@@ -8,8 +8,9 @@
 namespace flowdlo::vulkan {
 namespace {
 
-// A CPU driver keeps the tile in its stack frame and likes it large; a GPU keeps it in registers.
-constexpr GemmChoice kCpuSimd{GemmFamily::kSimd, 16, 8, 2};
+// A CPU driver keeps the tile in its stack frame and likes it large, as long as one round of the
+// inner loop (here 20 kB of code) fits into a core's instruction cache; a GPU keeps it in registers.
+constexpr GemmChoice kCpuSimd{GemmFamily::kSimd, 32, 8, 1};
 constexpr GemmChoice kGpuSimd{GemmFamily::kSimd, 8, 4, 1};
 // 256 x 256 must still give each core of a GPU work: small tiles come first.
 constexpr std::array kTiles{GemmChoice{GemmFamily::kTile, 32, 32, 16},
