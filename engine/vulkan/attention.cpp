@@ -8,9 +8,10 @@
 namespace flowdlo::vulkan {
 namespace {
 
-constexpr int kBlock = 8;         // keys that a subgroup holds at once
-constexpr int kQueries = 2;       // a lane's
-constexpr int kLanesForTwo = 32;  // with more lanes, two queries a lane would span draws
+constexpr int kBlock = 4;  // keys that a subgroup hands round in one round of its loop
+// A lane's, where a subgroup's then lie within one draw. Every key handed round serves all of them;
+// twice as many of either, and the loop leaves the instruction cache of a CPU driver's core.
+constexpr int kMostQueries = 4;
 
 bool sound(Plan& plan, const ops::Attention& op) {
   const int keys = op.per_draw ? ops::kRowsPerDraw : op.key_value.rows;
@@ -42,7 +43,7 @@ bool sound(Plan& plan, const ops::Attention& op) {
 void record_attention(Plan& plan, const ops::Attention& op) {
   if (!sound(plan, op)) return;
   const int lanes = plan.lanes();
-  const int queries = lanes <= kLanesForTwo ? kQueries : 1;
+  const int queries = std::clamp(ops::kRowsPerDraw / lanes, 1, kMostQueries);
   const int columns =
       op.per_draw ? std::max(op.query.columns, op.key_value.columns) : op.query.columns;
   for (const Window rows : Plan::windows(op.query.rows, plan.most_texels() / (columns / 4))) {
