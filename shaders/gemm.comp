@@ -1,7 +1,8 @@
 // gemm: y[r, c] = act(sum_k x[r, k] W[c, k] + bias[c]) + residual[r, c]
 //
 //   thesis    Sec. 3.4, every dense layer of the cross-attention and the encoder
-//   in        x         [rows, K]           f32, as RGBA texels
+//   in        x         [rows, K]           f32, as RGBA texels; gaps between rows, as in y and
+//                                           residual, are allowed
 //             weight    [N/256][K/4][256]   f32 or f16 as RGBA texels: four consecutive k of one column
 //             bias      [N]                 f32, as RGBA texels
 //             residual  [rows, N]           f32, as RGBA texels; may be y
@@ -13,7 +14,7 @@
 // A lane owns tile_columns columns of all tile_rows rows, in fours that lie `lanes` apart. The rows
 // of x are spread over the lanes and handed round by shuffles with a constant lane, so that the inner
 // loop has no lane-varying load but texel fetches. k runs in order: a result does not depend on the
-// tile. K is read from x's size, so that one kernel serves every K: each costs CPU drivers 0.2 s.
+// tile. K is read from the weights' size, so that one kernel serves every K: each costs CPU drivers 0.2 s.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_KHR_shader_subgroup_basic : require
@@ -46,7 +47,8 @@ const int row_texels = (tile_rows + lanes - 1) / lanes;  // a lane's share of a 
 void main() {
   int lane = int(gl_LocalInvocationID.x);
   int first_row = int(gl_WorkGroupID.x) * tile_rows;
-  int texels_a_row = textureSize(x) / (int(gl_NumWorkGroups.x) * tile_rows);  // K / 4
+  int pitch = textureSize(x) / (int(gl_NumWorkGroups.x) * tile_rows);  // at least K / 4
+  int texels_a_row = textureSize(weight) / (int(gl_NumWorkGroups.y) * lanes * tile_columns);  // K / 4
   int quad = int(gl_WorkGroupID.y) * lanes * quads + lane;  // within this dispatch
   int out_quad = push.first_quad + quad;
 
@@ -56,7 +58,7 @@ void main() {
     [[unroll]] for (int i = 0; i < tile_rows; ++i) {
       vec4 value = start;
       if (has_residual != 0 && activation == 0) {
-        value += texelFetch(residual, (first_row + i) * push.row_quads + out_quad + q * lanes);
+        value += texelFetch(residual, (first_row + i) * push.residual_quads + out_quad + q * lanes);
       }
       [[unroll]] for (int c = 0; c < 4; ++c) sum[i * tile_columns + q * 4 + c] = value[c];
     }
@@ -65,7 +67,7 @@ void main() {
   int weight_base = quad / kPanelQuads * (texels_a_row * kPanel) + quad % kPanelQuads * 4;
   int x_base[row_texels];
   [[unroll]] for (int f = 0; f < row_texels; ++f) {
-    x_base[f] = (first_row + (f * lanes + lane) % tile_rows) * texels_a_row;
+    x_base[f] = (first_row + (f * lanes + lane) % tile_rows) * pitch;
   }
 
   for (int k = 0; k < texels_a_row; k += unroll) {
@@ -113,7 +115,9 @@ void main() {
         value[c] = sum[i * tile_columns + q * 4 + c];
         if (activation == 1) value[c] = gelu(value[c]);
       }
-      if (has_residual != 0 && activation == 1) value += texelFetch(residual, texel);
+      if (has_residual != 0 && activation == 1) {
+        value += texelFetch(residual, (first_row + i) * push.residual_quads + out_quad + q * lanes);
+      }
       y[texel] = value;
     }
   }

@@ -10,7 +10,8 @@ void record_simd_gemm(Plan& plan, const ops::Linear& op, const DenseLayer& layer
   const GemmChoice& tile = plan.gemm();
   const int panel_texels = layer.in / 4 * kPanel;
   const int most_panels = std::max(plan.most_texels() / panel_texels, 1);
-  const int row_texels = std::max(layer.in, op.residual ? layer.out : 1) / 4;
+  const int residual_pitch = op.residual ? plan.pitch(*op.residual) : 0;
+  const int row_texels = std::max(plan.pitch(op.x), residual_pitch) / 4;
 
   for (const Window rows : Plan::windows(op.x.rows, plan.most_texels() / row_texels)) {
     for (int panel = 0; panel < layer.out / kPanel; panel += most_panels) {
@@ -33,7 +34,9 @@ void record_simd_gemm(Plan& plan, const ops::Linear& op, const DenseLayer& layer
                      .unroll = tile.depth,
                      .activation = static_cast<int>(op.activation),
                      .has_residual = op.residual ? 1 : 0},
-                    {.row_quads = layer.out / 4, .first_quad = panel * kPanel / 4},
+                    {.row_quads = plan.pitch(op.y) / 4,
+                     .residual_quads = residual_pitch / 4,
+                     .first_quad = panel * kPanel / 4},
                     {static_cast<std::uint32_t>(rows.count / tile.rows),
                      static_cast<std::uint32_t>(panels * kPanel / (plan.lanes() * tile.columns))});
     }
