@@ -3,7 +3,9 @@
 //   thesis    Sec. 3.4, every dense layer of the cross-attention and the encoder
 //   in        x         [rows, K]           f32, as RGBA texels; gaps between rows, as in y and
 //                                           residual, are allowed
-//             weight    [N/256][K/4][256]   f32 or f16 as RGBA texels: four consecutive k of one column
+//             weight    [N/P][K/4][P]       f32 or f16 as RGBA texels: four consecutive k of one
+//                                           column; P = lanes * tile_columns, so that a subgroup
+//                                           reads what lies in one piece
 //             bias      [N]                 f32, as RGBA texels
 //             residual  [rows, N]           f32, as RGBA texels; may be y
 //   out       y         [rows, N]           f32
@@ -38,8 +40,6 @@ layout(binding = 2) uniform samplerBuffer bias;
 layout(binding = 3) uniform samplerBuffer residual;
 layout(binding = 4, std430) writeonly buffer Y { vec4 y[]; };
 
-const int kPanel = 256;  // columns that lie side by side in `weight`
-const int kPanelQuads = kPanel / 4;
 const int quads = tile_columns / 4;
 const int kRowBlock = 4;  // rows that share a weight in registers
 const int row_texels = (tile_rows + lanes - 1) / lanes;  // a lane's share of a column of x's tile
@@ -64,7 +64,8 @@ void main() {
     }
   }
 
-  int weight_base = quad / kPanelQuads * (texels_a_row * kPanel) + quad % kPanelQuads * 4;
+  int panel = lanes * tile_columns;
+  int weight_base = int(gl_WorkGroupID.y) * (texels_a_row * panel) + lane * 4;
   int x_base[row_texels];
   [[unroll]] for (int f = 0; f < row_texels; ++f) {
     x_base[f] = (first_row + (f * lanes + lane) % tile_rows) * pitch;
@@ -79,7 +80,7 @@ void main() {
       }
       [[unroll]] for (int j = 0; j < tile_columns; ++j) {
         int column = j / 4 * lanes * 4 + j % 4;
-        b[u * tile_columns + j] = texelFetch(weight, weight_base + (k + u) * kPanel + column);
+        b[u * tile_columns + j] = texelFetch(weight, weight_base + (k + u) * panel + column);
       }
     }
     [[unroll]] for (int first = 0; first < tile_rows; first += kRowBlock) {

@@ -19,7 +19,7 @@ Packing packing_of(GemmFamily family, int out, int in, std::span<const float> we
   if (out == ops::kWidth && in >= 1 && in <= kNarrowInputs) return Packing::kNarrow;
   if (in == ops::kWidth && out >= 3 && out <= kHeadOutputs) return Packing::kHead;
   const int depth = family == GemmFamily::kSimd ? 16 : 64;
-  if (out % kPanel != 0 || in % depth != 0 || in <= 0) return Packing::kNone;
+  if (out % kColumns != 0 || in % depth != 0 || in <= 0) return Packing::kNone;
   if (family == GemmFamily::kSimd) return Packing::kPanels;
   return family == GemmFamily::kMatrix || are_halves(weight) ? Packing::kHalves : Packing::kRows;
 }
@@ -38,17 +38,17 @@ std::vector<float> padded(std::span<const float> values, int rows, int columns, 
 
 }  // namespace
 
-std::vector<float> pack_panels(std::span<const float> weight, int out, int in) {
+std::vector<float> pack_panels(std::span<const float> weight, int out, int in, int panel) {
   constexpr int kBlock = 8;  // columns read side by side: each stays in the cache
   std::vector<float> packed(weight.size());
   for (int first = 0; first < out; first += kBlock) {
-    const std::size_t panel = static_cast<std::size_t>(first / kPanel) * (in / 4) * kPanel;
-    float* const to = packed.data() + (panel + static_cast<std::size_t>(first % kPanel)) * 4;
+    const std::size_t start = static_cast<std::size_t>(first / panel) * (in / 4) * panel;
+    float* const to = packed.data() + (start + static_cast<std::size_t>(first % panel)) * 4;
     const float* const from = weight.data() + static_cast<std::size_t>(first) * in;
     for (int k = 0; k < in; k += 4) {
       for (int column = 0; column < kBlock; ++column) {
         std::copy_n(from + static_cast<std::ptrdiff_t>(column) * in + k, 4,
-                    to + (static_cast<std::ptrdiff_t>(k) / 4 * kPanel + column) * 4);
+                    to + (static_cast<std::ptrdiff_t>(k) / 4 * panel + column) * 4);
       }
     }
   }
@@ -83,11 +83,13 @@ DenseLayer keep_layer(Plan& plan, std::string_view name, int out, int in,
   const auto keep = [&](int rows, int columns, std::vector<float> content) {
     return plan.tensor(Home::kDevice, name, rows, columns, std::move(content));
   };
+  const int panel = plan.lanes() * plan.gemm().columns;
   switch (layer.packing) {
     case Packing::kPanels:
       layer.halves = are_halves(weight);
-      layer.weight = layer.halves ? keep(out, in / 2, pack_halves(pack_panels(weight, out, in)))
-                                  : keep(out, in, pack_panels(weight, out, in));
+      layer.weight = layer.halves
+                         ? keep(out, in / 2, pack_halves(pack_panels(weight, out, in, panel)))
+                         : keep(out, in, pack_panels(weight, out, in, panel));
       layer.bias = keep(1, out, {bias.begin(), bias.end()});
       break;
     case Packing::kRows:

@@ -13,7 +13,7 @@ TEST(PackPanels, PutsFourConsecutiveInputsOfAColumnIntoATexelAndColumnsSideBySid
   std::vector<float> weight(kOut * kIn);
   for (std::size_t i = 0; i < weight.size(); ++i) weight[i] = static_cast<float>(i);
 
-  const std::vector<float> packed = pack_panels(weight, kOut, kIn);
+  const std::vector<float> packed = pack_panels(weight, kOut, kIn, 256);
 
   const auto at = [&](std::size_t panel, std::size_t k4, std::size_t column, std::size_t k) {
     return packed[((panel * 4 + k4) * 256 + column) * 4 + k];
