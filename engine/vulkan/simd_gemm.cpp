@@ -4,10 +4,26 @@
 #include "vulkan/recorders.hpp"
 
 namespace flowdlo::vulkan {
+namespace {
+
+// A GELU is unrolled for every entry of a tile: with more rows than these a driver takes 40 ms
+// longer to compile the kernel, and gains nothing.
+constexpr int kMostGeluRows = 16;
+
+/// The same inner loop, of fewer rows and more k.
+GemmChoice tile_of(GemmChoice tile, ops::Activation activation) {
+  if (activation == ops::Activation::kGelu && tile.rows > kMostGeluRows) {
+    tile.depth *= tile.rows / kMostGeluRows;
+    tile.rows = kMostGeluRows;
+  }
+  return tile;
+}
+
+}  // namespace
 
 /// Rows and columns in windows that texel buffers can hold.
 void record_simd_gemm(Plan& plan, const ops::Linear& op, const DenseLayer& layer) {
-  const GemmChoice& tile = plan.gemm();
+  const GemmChoice tile = tile_of(plan.gemm(), op.activation);
   const int panel_texels = layer.in / 4 * kColumns;
   const int most_panels = std::max(plan.most_texels() / panel_texels, 1);
   const int residual_pitch = op.residual ? plan.pitch(*op.residual) : 0;
