@@ -35,36 +35,49 @@ std::vector<float> padded(std::span<const float> values, int rows, int columns, 
   return result;
 }
 
-}  // namespace
-
-std::vector<float> pack_panels(std::span<const float> weight, int out, int in, int panel) {
+/// [out/panel][in/4][panel] fours of words.
+template <class Word, class Convert>
+std::vector<Word> in_panels(std::span<const float> weight, int out, int in, int panel,
+                            const Convert& convert) {
   constexpr int kBlock = 8;  // columns read side by side: each stays in the cache
-  std::vector<float> packed(weight.size());
+  std::vector<Word> packed(weight.size());
   for (int first = 0; first < out; first += kBlock) {
     const std::size_t start = static_cast<std::size_t>(first / panel) * (in / 4) * panel;
-    float* const to = packed.data() + (start + static_cast<std::size_t>(first % panel)) * 4;
+    Word* const to = packed.data() + (start + static_cast<std::size_t>(first % panel)) * 4;
     const float* const from = weight.data() + static_cast<std::size_t>(first) * in;
     for (int k = 0; k < in; k += 4) {
       for (int column = 0; column < kBlock; ++column) {
-        std::copy_n(from + static_cast<std::ptrdiff_t>(column) * in + k, 4,
-                    to + (static_cast<std::ptrdiff_t>(k) / 4 * panel + column) * 4);
+        const float* const four = from + static_cast<std::ptrdiff_t>(column) * in + k;
+        Word* const texel = to + (static_cast<std::ptrdiff_t>(k) / 4 * panel + column) * 4;
+        for (int i = 0; i < 4; ++i) texel[i] = convert(four[i]);
       }
     }
   }
   return packed;
 }
 
+/// Two halves in the place of each float.
+std::vector<float> in_pairs(const std::vector<std::uint16_t>& halves) {
+  std::vector<float> pairs(halves.size() / 2);
+  std::memcpy(pairs.data(), halves.data(), pairs.size() * sizeof(float));
+  return pairs;
+}
+
+}  // namespace
+
+std::vector<float> pack_panels(std::span<const float> weight, int out, int in, int panel) {
+  return in_panels<float>(weight, out, in, panel, [](float value) { return value; });
+}
+
+std::vector<float> pack_half_panels(std::span<const float> weight, int out, int in, int panel) {
+  assert(are_halves(weight));
+  return in_pairs(in_panels<std::uint16_t>(weight, out, in, panel, weights::exact_half));
+}
+
 std::vector<float> pack_halves(std::span<const float> weight) {
   std::vector<std::uint16_t> halves(weight.size());
-  if (are_halves(weight)) {  // rounding takes ten times as long
-    std::transform(weight.begin(), weight.end(), halves.begin(),
-                   [](float value) { return weights::exact_half(value); });
-  } else {
-    std::transform(weight.begin(), weight.end(), halves.begin(), weights::float_to_half);
-  }
-  std::vector<float> packed(weight.size() / 2);
-  std::memcpy(packed.data(), halves.data(), packed.size() * sizeof(float));
-  return packed;
+  std::transform(weight.begin(), weight.end(), halves.begin(), weights::float_to_half);
+  return in_pairs(halves);
 }
 
 bool are_halves(std::span<const float> weight) {
@@ -89,9 +102,8 @@ DenseLayer keep_layer(Plan& plan, std::string_view name, int out, int in,
   switch (layer.packing) {
     case Packing::kPanels:
       layer.halves = are_halves(weight);
-      layer.weight = layer.halves
-                         ? keep(out, in / 2, pack_halves(pack_panels(weight, out, in, panel)))
-                         : keep(out, in, pack_panels(weight, out, in, panel));
+      layer.weight = layer.halves ? keep(out, in / 2, pack_half_panels(weight, out, in, panel))
+                                  : keep(out, in, pack_panels(weight, out, in, panel));
       layer.bias = keep(1, out, {bias.begin(), bias.end()});
       break;
     case Packing::kRows:

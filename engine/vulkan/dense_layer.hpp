@@ -38,6 +38,10 @@ inline constexpr int kColumns = 256;  ///< gemm's kernels take columns of y in m
 [[nodiscard]] std::vector<float> pack_panels(std::span<const float> weight, int out, int in,
                                              int panel);
 
+/// The same of halves, two in the place of each float; every value is an f16.
+[[nodiscard]] std::vector<float> pack_half_panels(std::span<const float> weight, int out, int in,
+                                                  int panel);
+
 /// Two f16 in the place of each float, nearest even; `weight` has an even size.
 [[nodiscard]] std::vector<float> pack_halves(std::span<const float> weight);
 

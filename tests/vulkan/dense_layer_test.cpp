@@ -25,6 +25,16 @@ TEST(PackPanels, PutsFourConsecutiveInputsOfAColumnIntoATexelAndColumnsSideBySid
   EXPECT_EQ(at(1, 3, 7, 2), weight[(256 + 7) * 16 + 14]);
 }
 
+TEST(PackHalfPanels, HoldsTheSameInHalfTheSpace) {
+  constexpr int kOut = 256;
+  constexpr int kIn = 16;
+  std::vector<float> weight(kOut * kIn);
+  for (std::size_t i = 0; i < weight.size(); ++i) weight[i] = static_cast<float>(i % 2048) / 8;
+
+  EXPECT_EQ(pack_half_panels(weight, kOut, kIn, 64),
+            pack_halves(pack_panels(weight, kOut, kIn, 64)));
+}
+
 TEST(PackHalves, PutsTwoValuesIntoThePlaceOfOne) {
   const std::vector<float> weight{1.0F, -2.0F, 0.5F, 65504.0F};
 
