@@ -29,6 +29,11 @@ ops::Tensor Plan::scratch(std::string_view name, int rows, int columns) {
   return {placed.id, rows, columns};
 }
 
+Range Plan::zeros(int columns) {
+  if (!zeros_ || zeros_->columns < columns) zeros_ = tensor(Home::kDevice, "zeros", 1, columns);
+  return whole(*zeros_);
+}
+
 int Plan::pitch(const ops::Tensor& tensor) const {
   const VkDeviceSize floats = whole(tensor).size / sizeof(float);
   return static_cast<int>(floats / static_cast<VkDeviceSize>(tensor.rows));

@@ -68,6 +68,8 @@ class Plan {
                                    std::vector<float> content = {});
   /// What operations alone see: rows may lie further apart than they are long.
   [[nodiscard]] ops::Tensor scratch(std::string_view name, int rows, int columns);
+  /// At least that many zeros in a row: an addend for a kernel that wants one.
+  [[nodiscard]] Range zeros(int columns);
   [[nodiscard]] Range whole(const ops::Tensor& tensor) const { return resources_.whole(tensor.id); }
   /// Floats from one row to the next.
   [[nodiscard]] int pitch(const ops::Tensor& tensor) const;
@@ -124,6 +126,7 @@ class Plan {
   GemmChoice gemm_;
   bool chosen_ = false;
   Resources resources_;
+  std::optional<ops::Tensor> zeros_;
   std::vector<KernelSpec> kernels_;
   std::map<std::string, std::size_t> kernel_index_;
   std::vector<Step> steps_;

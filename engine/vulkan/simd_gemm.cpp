@@ -4,28 +4,14 @@
 #include "vulkan/recorders.hpp"
 
 namespace flowdlo::vulkan {
-namespace {
-
-// A GELU is unrolled for every entry of a tile: with more rows than these a driver takes 40 ms
-// longer to compile the kernel, and gains nothing.
-constexpr int kMostGeluRows = 16;
-
-/// The same inner loop, of fewer rows and more k.
-GemmChoice tile_of(GemmChoice tile, ops::Activation activation) {
-  if (activation == ops::Activation::kGelu && tile.rows > kMostGeluRows) {
-    tile.depth *= tile.rows / kMostGeluRows;
-    tile.rows = kMostGeluRows;
-  }
-  return tile;
-}
-
-}  // namespace
-
 /// Rows and columns in windows that texel buffers can hold.
 void record_simd_gemm(Plan& plan, const ops::Linear& op, const DenseLayer& layer) {
-  const GemmChoice tile = tile_of(plan.gemm(), op.activation);
+  const GemmChoice& tile = plan.gemm();
   const int panel_texels = layer.in / 4 * kColumns;
   const int most_panels = std::max(plan.most_texels() / panel_texels, 1);
+  // Without a residual zeros are added, all rows the same: one kernel less to compile, and 1 % of a
+  // layer's time.
+  const bool adds = op.residual || op.activation == ops::Activation::kNone;
   const int residual_pitch = op.residual ? plan.pitch(*op.residual) : 0;
   const int row_texels = std::max(plan.pitch(op.x), residual_pitch) / 4;
 
@@ -41,7 +27,8 @@ void record_simd_gemm(Plan& plan, const ops::Linear& op, const DenseLayer& layer
                       panel_bytes * static_cast<VkDeviceSize>(panels)},
                      layer.halves},
           .bias = {bias},
-          .residual = {op.residual ? plan.rows(*op.residual, rows) : bias},
+          .residual = {op.residual ? plan.rows(*op.residual, rows)
+                                   : (adds ? plan.zeros(layer.out) : bias)},
           .y = {plan.rows(op.y, rows)}};
       plan.dispatch(
           call,
@@ -50,7 +37,7 @@ void record_simd_gemm(Plan& plan, const ops::Linear& op, const DenseLayer& layer
            .tile_columns = tile.columns,
            .unroll = tile.depth,
            .activation = static_cast<int>(op.activation),
-           .has_residual = op.residual ? 1 : 0},
+           .has_residual = adds ? 1 : 0},
           {.row_quads = plan.pitch(op.y) / 4,
            .residual_quads = residual_pitch / 4,
            .first_quad = panel * kColumns / 4},
