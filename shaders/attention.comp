@@ -18,8 +18,8 @@
 #include "push_constants.h"
 
 layout(constant_id = 0) const int lanes = 8;
-layout(constant_id = 1) const int queries = 2;   // a lane; 1 where lanes exceed 32
-layout(constant_id = 2) const int block = 8;     // keys; at most `lanes`
+layout(constant_id = 1) const int queries = 4;   // a lane; lanes * queries at most 64, or 1
+layout(constant_id = 2) const int block = 4;     // keys; at most `lanes`
 layout(constant_id = 3) const int keys = 64;     // that a row sees
 layout(constant_id = 4) const int per_draw = 1;  // row r sees the 64 rows of draw r / 64
 layout(constant_id = 5) const int has_valid = 0;

@@ -1,8 +1,11 @@
 // gemm: y[r, c] = act(sum_k x[r, k] W[c, k] + bias[c]) + residual[r, c]
 //
 //   thesis    Sec. 3.4, every dense layer of the cross-attention and the encoder
-//   in        x         [rows, K]           f32, as RGBA texels
-//             weight    [N/256][K/4][256]   RGBA texels: four consecutive k of one column
+//   in        x         [rows, K]           f32, as RGBA texels; gaps between rows, as in y and
+//                                           residual, are allowed
+//             weight    [N/P][K/4][P]       f32 or f16 as RGBA texels: four consecutive k of one
+//                                           column; P = lanes * tile_columns, so that a subgroup
+//                                           reads what lies in one piece
 //             bias      [N]                 f32, as RGBA texels
 //             residual  [rows, N]           f32, as RGBA texels; may be y
 //   out       y         [rows, N]           f32
@@ -13,7 +16,7 @@
 // A lane owns tile_columns columns of all tile_rows rows, in fours that lie `lanes` apart. The rows
 // of x are spread over the lanes and handed round by shuffles with a constant lane, so that the inner
 // loop has no lane-varying load but texel fetches. k runs in order: a result does not depend on the
-// tile. K is read from x's size, so that one kernel serves every K: each costs CPU drivers 0.2 s.
+// tile. K is read from the weights' size, so that one kernel serves every K: each costs CPU drivers 0.2 s.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_KHR_shader_subgroup_basic : require
@@ -23,9 +26,9 @@
 #include "push_constants.h"
 
 layout(constant_id = 0) const int lanes = 8;
-layout(constant_id = 1) const int tile_rows = 16;
+layout(constant_id = 1) const int tile_rows = 32;    // a multiple of four
 layout(constant_id = 2) const int tile_columns = 8;  // a multiple of four
-layout(constant_id = 3) const int unroll = 2;        // texels of four k in flight; divides K / 4
+layout(constant_id = 3) const int unroll = 1;        // texels of four k in flight; divides K / 4
 layout(constant_id = 4) const int activation = 0;    // ops::Activation
 layout(constant_id = 5) const int has_residual = 0;
 layout(local_size_x_id = 0) in;
@@ -37,15 +40,15 @@ layout(binding = 2) uniform samplerBuffer bias;
 layout(binding = 3) uniform samplerBuffer residual;
 layout(binding = 4, std430) writeonly buffer Y { vec4 y[]; };
 
-const int kPanel = 256;  // columns that lie side by side in `weight`
-const int kPanelQuads = kPanel / 4;
 const int quads = tile_columns / 4;
+const int kRowBlock = 4;  // rows that share a weight in registers
 const int row_texels = (tile_rows + lanes - 1) / lanes;  // a lane's share of a column of x's tile
 
 void main() {
   int lane = int(gl_LocalInvocationID.x);
   int first_row = int(gl_WorkGroupID.x) * tile_rows;
-  int texels_a_row = textureSize(x) / (int(gl_NumWorkGroups.x) * tile_rows);  // K / 4
+  int pitch = textureSize(x) / (int(gl_NumWorkGroups.x) * tile_rows);  // at least K / 4
+  int texels_a_row = textureSize(weight) / (int(gl_NumWorkGroups.y) * lanes * tile_columns);  // K / 4
   int quad = int(gl_WorkGroupID.y) * lanes * quads + lane;  // within this dispatch
   int out_quad = push.first_quad + quad;
 
@@ -55,16 +58,17 @@ void main() {
     [[unroll]] for (int i = 0; i < tile_rows; ++i) {
       vec4 value = start;
       if (has_residual != 0 && activation == 0) {
-        value += texelFetch(residual, (first_row + i) * push.row_quads + out_quad + q * lanes);
+        value += texelFetch(residual, (first_row + i) * push.residual_quads + out_quad + q * lanes);
       }
       [[unroll]] for (int c = 0; c < 4; ++c) sum[i * tile_columns + q * 4 + c] = value[c];
     }
   }
 
-  int weight_base = quad / kPanelQuads * (texels_a_row * kPanel) + quad % kPanelQuads * 4;
+  int panel = lanes * tile_columns;
+  int weight_base = int(gl_WorkGroupID.y) * (texels_a_row * panel) + lane * 4;
   int x_base[row_texels];
   [[unroll]] for (int f = 0; f < row_texels; ++f) {
-    x_base[f] = (first_row + (f * lanes + lane) % tile_rows) * texels_a_row;
+    x_base[f] = (first_row + (f * lanes + lane) % tile_rows) * pitch;
   }
 
   for (int k = 0; k < texels_a_row; k += unroll) {
@@ -76,27 +80,30 @@ void main() {
       }
       [[unroll]] for (int j = 0; j < tile_columns; ++j) {
         int column = j / 4 * lanes * 4 + j % 4;
-        b[u * tile_columns + j] = texelFetch(weight, weight_base + (k + u) * kPanel + column);
+        b[u * tile_columns + j] = texelFetch(weight, weight_base + (k + u) * panel + column);
       }
     }
-    [[unroll]] for (int i = 0; i < tile_rows; ++i) {
-      vec4 x_row[unroll];
-      [[unroll]] for (int u = 0; u < unroll; ++u) {
-        vec4 held = a[u * row_texels + i / lanes];
-        uint holder = uint(i % lanes);
-        x_row[u] = vec4(subgroupShuffle(held.x, holder), subgroupShuffle(held.y, holder),
-                        subgroupShuffle(held.z, holder), subgroupShuffle(held.w, holder));
+    [[unroll]] for (int first = 0; first < tile_rows; first += kRowBlock) {
+      vec4 x_row[kRowBlock * unroll];
+      [[unroll]] for (int r = 0; r < kRowBlock; ++r) {
+        int i = first + r;
+        [[unroll]] for (int u = 0; u < unroll; ++u) {
+          vec4 held = a[u * row_texels + i / lanes];
+          uint holder = uint(i % lanes);
+          x_row[r * unroll + u] =
+              vec4(subgroupShuffle(held.x, holder), subgroupShuffle(held.y, holder),
+                   subgroupShuffle(held.z, holder), subgroupShuffle(held.w, holder));
+        }
       }
       [[unroll]] for (int j = 0; j < tile_columns; ++j) {
-        float total = sum[i * tile_columns + j];
         [[unroll]] for (int u = 0; u < unroll; ++u) {
           vec4 w = b[u * tile_columns + j];
-          total += x_row[u].x * w.x;
-          total += x_row[u].y * w.y;
-          total += x_row[u].z * w.z;
-          total += x_row[u].w * w.w;
+          [[unroll]] for (int c = 0; c < 4; ++c) {
+            [[unroll]] for (int r = 0; r < kRowBlock; ++r) {
+              sum[(first + r) * tile_columns + j] += x_row[r * unroll + u][c] * w[c];
+            }
+          }
         }
-        sum[i * tile_columns + j] = total;
       }
     }
   }
@@ -109,7 +116,9 @@ void main() {
         value[c] = sum[i * tile_columns + q * 4 + c];
         if (activation == 1) value[c] = gelu(value[c]);
       }
-      if (has_residual != 0 && activation == 1) value += texelFetch(residual, texel);
+      if (has_residual != 0 && activation == 1) {
+        value += texelFetch(residual, (first_row + i) * push.residual_quads + out_quad + q * lanes);
+      }
       y[texel] = value;
     }
   }

@@ -9,8 +9,9 @@ namespace flowdlo::vulkan {
 #endif
 
 struct GemmPush {
-  int row_quads;   // columns of y and residual, in fours
-  int first_quad;  // of this dispatch; a multiple of 64
+  int row_quads;       // from a row of y to the next, in fours of columns
+  int residual_quads;  // the same of residual
+  int first_quad;      // of this dispatch; a multiple of 64
 };
 
 struct TileGemmPush {  // also of matrix_gemm

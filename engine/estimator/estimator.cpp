@@ -2,6 +2,9 @@
 #include "flowdlo/estimator.hpp"
 
 #include <fmt/format.h>
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
 
 #include <algorithm>
 #include <exception>
@@ -21,6 +24,7 @@
 #include "gate/calibrated.hpp"
 #include "gate/gate.hpp"
 #include "prior/prior.hpp"
+#include "weights/kept_file.hpp"
 #include "weights/weights.hpp"
 
 namespace flowdlo {
@@ -59,6 +63,23 @@ flow::SamplerConfig sampler_config(const Config& config) {
           .capacity = {.cloud_points = pixels / kCloudShare,
                        .field_texels = pixels / 4,
                        .image_pixels = pixels}};
+}
+
+/// The weights as long as `loaded` lives, then made anew from their file: for a frame larger than
+/// planned and for a lost device.
+flow::WeightsSource source_of(const weights::Loaded& loaded) {
+  return [file = loaded.file, first = std::weak_ptr(loaded.weights)] {
+    auto weights = first.lock();
+    return weights ? weights : std::make_shared<const weights::Weights>(file->decoded());
+  };
+}
+
+/// To the system, what making an estimator used once: a driver's compiler and the decoded weights
+/// leave 8 to 15 MB of free pieces between what stays.
+void return_free_memory() {
+#ifdef __GLIBC__
+  ::malloc_trim(0);
+#endif
 }
 
 /// The probability that the hypothesis the estimate follows is right. A runner-up's can only come
@@ -133,7 +154,8 @@ Estimate conclude(const Returned& returned, const std::vector<estimator::Hypothe
 /// A member class is as visible as its owner unless it says otherwise.
 struct FLOWDLO_HIDDEN Estimator::Impl {
   Config config;
-  std::shared_ptr<const weights::Weights> weights;
+  weights::Metadata metadata;
+  flow::WeightsSource weights;
   std::string device;
   flow::Sampler sampler;
 
@@ -153,15 +175,17 @@ Result<std::unique_ptr<Estimator::Impl>> Estimator::Impl::create(const Config& w
   // Opening a driver takes as long as reading the weights: side by side, where a thread is to be
   // had.
   auto choice = std::async([&] { return estimator::choose_back_end(wanted); });
-  auto loaded = weights::load(*file);
+  auto loaded = weights::load_and_keep(*file);
   auto back_end = choice.get();
   if (!loaded) return loaded.error();
-  const auto weights = std::make_shared<const weights::Weights>(*std::move(loaded));
-  const Config config = resolved(wanted, weights->metadata);
+  const weights::Metadata metadata = loaded->weights->metadata;
+  const Config config = resolved(wanted, metadata);
   if (!back_end) return back_end.error();
+  const auto weights = source_of(*loaded);
   auto sampler = flow::Sampler::create(weights, back_end->make_program, sampler_config(config));
   if (!sampler) return sampler.error();
-  return std::make_unique<Impl>(Impl{config, weights, back_end->name, *std::move(sampler)});
+  return std::make_unique<Impl>(
+      Impl{config, metadata, weights, back_end->name, *std::move(sampler)});
 }
 
 /// The model's predictions. Where the device was left to us, a lost one is replaced by the CPU.
@@ -185,7 +209,7 @@ weights::PriorKind Estimator::Impl::prior_kind() const {
     case PriorChoice::kOfWeights:
       break;
   }
-  return weights->metadata.variant.prior_kind;
+  return metadata.variant.prior_kind;
 }
 
 /// Whether the fitted score decides. It was fitted to the model that comes with FlowDLO.
@@ -198,7 +222,6 @@ bool Estimator::Impl::calibrated() const {
     case GateChoice::kOfWeights:
       break;
   }
-  const weights::Metadata& metadata = weights->metadata;
   return metadata.trained && metadata.variant.head_channels == 4 &&
          metadata.variant.prior_kind == weights::PriorKind::kRefined;
 }
@@ -264,6 +287,7 @@ Result<Estimate> Estimator::Impl::estimate(const Frame& frame, Tensors* tensors)
 Result<Estimator> Estimator::create(const Config& config) {
   auto impl = guarded("Estimator::create", [&] { return Impl::create(config); });
   if (!impl) return impl.error();
+  return_free_memory();
   return Estimator(*std::move(impl));
 }
 

@@ -41,15 +41,16 @@ Capacity needed(const SampleInput& input) {
 
 }  // namespace
 
-Sampler::Sampler(std::shared_ptr<const weights::Weights> weights, ProgramFactory factory,
-                 const SamplerConfig& config)
+Sampler::Sampler(WeightsSource weights, ProgramFactory factory, const SamplerConfig& config)
     : weights_(std::move(weights)),
       factory_(std::move(factory)),
       config_(config),
       source_(gaussian_source(config.seed, config.draws)) {}
 
 Result<void> Sampler::build() {
-  const auto& metadata = weights_->metadata;
+  const auto weights = weights_();
+  const auto& metadata = weights->metadata;
+  variant_ = metadata.variant;
   const int rows = config_.draws * ops::kRowsPerDraw;
   program_ = factory_();
   ops::Program& program = *program_;
@@ -70,7 +71,7 @@ Result<void> Sampler::build() {
   const auto visible = program.scratch("visible", ops::kVisibleRows, 4);
   const auto norm = program.scratch("norm", 1, 4);
 
-  VelocityModel model(program, *weights_, config_.draws, config_.steps);
+  VelocityModel model(program, *weights, config_.draws, config_.steps);
   program.stage("visible_points");
   program.record(
       ops::FarthestPoints{.cloud = handles_.cloud, .params = handles_.params, .visible = visible});
@@ -104,6 +105,11 @@ Result<void> Sampler::build() {
 
 Result<Sampler> Sampler::create(std::shared_ptr<const weights::Weights> weights,
                                 ProgramFactory factory, const SamplerConfig& config) {
+  return create([weights = std::move(weights)] { return weights; }, std::move(factory), config);
+}
+
+Result<Sampler> Sampler::create(WeightsSource weights, ProgramFactory factory,
+                                const SamplerConfig& config) {
   Sampler sampler(std::move(weights), std::move(factory), config);
   auto built = sampler.build();
   if (!built) return built.error();
@@ -158,7 +164,7 @@ Prediction Sampler::read(int point_count) const {
   std::array<float, 4> norm{};
   program_->read(handles_.norm, norm);
 
-  const bool has_sigma = weights_->metadata.variant.head_channels == 4;
+  const bool has_sigma = variant_.head_channels == 4;
   prediction.draws.resize(draws);
   if (has_sigma) prediction.sigma_m.resize(draws);
   for (std::size_t draw = 0; draw < draws; ++draw) {

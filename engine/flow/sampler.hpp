@@ -49,9 +49,16 @@ struct Prediction {
 /// Makes empty programs on the back end of choice.
 using ProgramFactory = std::function<std::unique_ptr<ops::Program>()>;
 
+/// The model, asked for whenever a program is made, always the same; programs keep copies of their
+/// own.
+using WeightsSource = std::function<std::shared_ptr<const weights::Weights>()>;
+
 class Sampler {
  public:
   /// Records, compiles and warms up. Fails with kDeviceLost or kNoDevice.
+  [[nodiscard]] static Result<Sampler> create(WeightsSource weights, ProgramFactory factory,
+                                              const SamplerConfig& config);
+  /// The same of weights that stay in memory.
   [[nodiscard]] static Result<Sampler> create(std::shared_ptr<const weights::Weights> weights,
                                               ProgramFactory factory, const SamplerConfig& config);
 
@@ -79,14 +86,14 @@ class Sampler {
     ops::Tensor prediction;
   };
 
-  Sampler(std::shared_ptr<const weights::Weights> weights, ProgramFactory factory,
-          const SamplerConfig& config);
+  Sampler(WeightsSource weights, ProgramFactory factory, const SamplerConfig& config);
   [[nodiscard]] Result<void> build();
   [[nodiscard]] Result<void> ensure_capacity(const SampleInput& input);
   void write(const SampleInput& input);
   [[nodiscard]] Prediction read(int point_count) const;
 
-  std::shared_ptr<const weights::Weights> weights_;
+  WeightsSource weights_;
+  weights::Variant variant_;
   ProgramFactory factory_;
   SamplerConfig config_;
   std::vector<float> source_;

@@ -1,11 +1,15 @@
 #include "frame/png.hpp"
 
 #include <fmt/format.h>
+#include <png.h>
 
 #include <algorithm>
 #include <array>
+#include <bit>
+#include <csetjmp>
 #include <cstddef>
-#include <opencv2/imgcodecs.hpp>
+#include <new>
+#include <optional>
 
 #include "frame/limits.hpp"
 
@@ -45,9 +49,9 @@ struct Size {
   std::uint32_t height = 0;
 };
 
-// The decoder behind OpenCV writes what it finds wrong to stderr and may return half an image, and
-// a hostile header asks it for gigabytes. So the file's frame (sizes, chunks, checksums, end mark)
-// is verified here. An empty string: whole.
+// A hostile header asks for gigabytes, and libpng reads on over damage that a frame should not
+// survive. So the file's frame (sizes, chunks, checksums, end mark) is verified here. An empty
+// string: whole.
 std::string damage(Bytes bytes, Size& size) {
   if (bytes.size() < kSignature.size() ||
       !std::equal(kSignature.begin(), kSignature.end(), bytes.begin())) {
@@ -75,6 +79,135 @@ std::string damage(Bytes bytes, Size& size) {
   return "the PNG is cut short";
 }
 
+[[noreturn]] void jump(png_structp png, png_const_charp) { png_longjmp(png, 1); }
+void ignore(png_structp, png_const_charp) {}
+
+/// libpng jumps out of whatever fails: between setjmp and libpng's return nothing may be alive that
+/// has a destructor. Hence small steps that say whether they came through.
+class Decoder {
+ public:
+  explicit Decoder(Bytes bytes)
+      : rest_(bytes),
+        png_(png_create_read_struct(PNG_LIBPNG_VER_STRING, nullptr, jump, ignore)),
+        info_(png_ != nullptr ? png_create_info_struct(png_) : nullptr) {}
+  Decoder(const Decoder&) = delete;
+  Decoder& operator=(const Decoder&) = delete;
+  ~Decoder() { png_destroy_read_struct(&png_, &info_, nullptr); }
+
+  /// Everything as 1, 3 or 4 channels of 8 or 16 bits, in this machine's byte order.
+  [[nodiscard]] bool read_header() {
+    if (info_ == nullptr || setjmp(png_jmpbuf(png_)) != 0) return false;
+    png_set_read_fn(png_, this, read);
+    png_read_info(png_, info_);
+    const bool grey = png_get_color_type(png_, info_) == PNG_COLOR_TYPE_GRAY;
+    png_set_palette_to_rgb(png_);
+    if (grey) {
+      png_set_expand_gray_1_2_4_to_8(png_);
+    } else {
+      png_set_gray_to_rgb(png_);
+      png_set_tRNS_to_alpha(png_);
+      png_set_bgr(png_);
+    }
+    if (std::endian::native == std::endian::little) png_set_swap(png_);
+    png_set_interlace_handling(png_);
+    png_read_update_info(png_, info_);
+    return true;
+  }
+
+  [[nodiscard]] int type() const {
+    const int depth = png_get_bit_depth(png_, info_) == 16 ? CV_16U : CV_8U;
+    return CV_MAKETYPE(depth, png_get_channels(png_, info_));
+  }
+
+  [[nodiscard]] bool read_pixels(png_bytepp rows) {
+    if (setjmp(png_jmpbuf(png_)) != 0) return false;
+    png_read_image(png_, rows);
+    png_read_end(png_, nullptr);
+    return true;
+  }
+
+ private:
+  static void read(png_structp png, png_bytep target, std::size_t size) {
+    Bytes& rest = static_cast<Decoder*>(png_get_io_ptr(png))->rest_;
+    if (size > rest.size()) png_error(png, "cut short");
+    std::copy_n(rest.begin(), size, target);
+    rest = rest.subspan(size);
+  }
+
+  Bytes rest_;
+  png_structp png_;
+  png_infop info_;
+};
+
+/// As above; `bytes` receives the file.
+class Encoder {
+ public:
+  explicit Encoder(std::vector<std::uint8_t>& bytes)
+      : bytes_(bytes),
+        png_(png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, jump, ignore)),
+        info_(png_ != nullptr ? png_create_info_struct(png_) : nullptr) {}
+  Encoder(const Encoder&) = delete;
+  Encoder& operator=(const Encoder&) = delete;
+  ~Encoder() { png_destroy_write_struct(&png_, &info_); }
+
+  /// Fast rather than small.
+  [[nodiscard]] bool write(png_uint_32 width, png_uint_32 height, int bits, int color_type,
+                           png_bytepp rows) {
+    if (info_ == nullptr || setjmp(png_jmpbuf(png_)) != 0) return false;
+    png_set_write_fn(png_, this, append, nullptr);
+    png_set_filter(png_, PNG_FILTER_TYPE_BASE, PNG_FILTER_SUB);
+    png_set_compression_level(png_, 1);
+    png_set_IHDR(png_, info_, width, height, bits, color_type, PNG_INTERLACE_NONE,
+                 PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+    png_write_info(png_, info_);
+    png_set_bgr(png_);
+    if (std::endian::native == std::endian::little) png_set_swap(png_);
+    png_write_image(png_, rows);
+    png_write_end(png_, info_);
+    return true;
+  }
+
+ private:
+  static void append(png_structp png, png_bytep source, std::size_t size) {
+    if (!static_cast<Encoder*>(png_get_io_ptr(png))->take(source, size))
+      png_error(png, "no memory");
+  }
+
+  [[nodiscard]] bool take(const std::uint8_t* source, std::size_t size) {
+    try {
+      bytes_.insert(bytes_.end(), source, source + size);
+      return true;
+    } catch (const std::bad_alloc&) {
+      return false;
+    }
+  }
+
+  std::vector<std::uint8_t>& bytes_;
+  png_structp png_;
+  png_infop info_;
+};
+
+std::vector<png_bytep> rows_of(const cv::Mat& image) {
+  std::vector<png_bytep> rows;
+  for (int v = 0; v < image.rows; ++v) rows.push_back(const_cast<png_bytep>(image.ptr(v)));
+  return rows;
+}
+
+/// What PNG calls the channels of `image`; none where it has no such kind.
+std::optional<int> color_type_of(const cv::Mat& image) {
+  if (image.empty() || (image.depth() != CV_8U && image.depth() != CV_16U)) return std::nullopt;
+  switch (image.channels()) {
+    case 1:
+      return PNG_COLOR_TYPE_GRAY;
+    case 3:
+      return PNG_COLOR_TYPE_RGB;
+    case 4:
+      return PNG_COLOR_TYPE_RGB_ALPHA;
+    default:
+      return std::nullopt;
+  }
+}
+
 }  // namespace
 
 Result<cv::Mat> decode_png(Bytes bytes, const std::string& who) {
@@ -86,25 +219,30 @@ Result<cv::Mat> decode_png(Bytes bytes, const std::string& who) {
                  fmt::format("{}: expected sides of 1 to {} px, got {} x {}; scale the images", who,
                              kMaxSide_px, size.width, size.height)};
   }
-  try {
-    const cv::Mat view(1, static_cast<int>(bytes.size()), CV_8U,
-                       const_cast<std::uint8_t*>(bytes.data()));  // only read
-    cv::Mat image = cv::imdecode(view, cv::IMREAD_UNCHANGED);
-    if (!image.empty()) return image;
-  } catch (const cv::Exception&) {
-    // told below: what OpenCV has to say helps nobody who made the file
+  Decoder decoder(bytes);
+  if (decoder.read_header()) {
+    cv::Mat image(static_cast<int>(size.height), static_cast<int>(size.width), decoder.type());
+    auto rows = rows_of(image);
+    if (decoder.read_pixels(rows.data())) return image;
   }
   return Error{ErrorCode::kBadInput, who + ": the PNG is damaged; write it again"};
 }
 
 Result<std::vector<std::uint8_t>> encode_png(const cv::Mat& image) {
-  try {
-    std::vector<std::uint8_t> bytes;
-    if (cv::imencode(".png", image, bytes)) return bytes;
-  } catch (const cv::Exception& failure) {
-    return Error{ErrorCode::kInternal, std::string("encode_png: ") + failure.what()};
+  const auto color_type = color_type_of(image);
+  if (!color_type) {
+    return Error{ErrorCode::kInternal,
+                 "encode_png: expected 8 or 16 bits and 1, 3 or 4 channels, got another image"};
   }
-  return Error{ErrorCode::kInternal, "encode_png: OpenCV could not encode the image"};
+  std::vector<std::uint8_t> bytes;
+  auto rows = rows_of(image);
+  Encoder encoder(bytes);
+  const int bits = image.depth() == CV_16U ? 16 : 8;
+  if (encoder.write(static_cast<png_uint_32>(image.cols), static_cast<png_uint_32>(image.rows),
+                    bits, *color_type, rows.data())) {
+    return bytes;
+  }
+  return Error{ErrorCode::kInternal, "encode_png: libpng could not encode the image"};
 }
 
 }  // namespace flowdlo::frame

@@ -8,9 +8,10 @@
 namespace flowdlo::vulkan {
 namespace {
 
-constexpr int kBlock = 8;         // keys that a subgroup holds at once
-constexpr int kQueries = 2;       // a lane's
-constexpr int kLanesForTwo = 32;  // with more lanes, two queries a lane would span draws
+constexpr int kBlock = 4;  // keys that a subgroup hands round in one round of its loop
+// A lane's, where a subgroup's then lie within one draw. Every key handed round serves all of them;
+// twice as many of either, and the loop leaves the instruction cache of a CPU driver's core.
+constexpr int kMostQueries = 4;
 
 bool sound(Plan& plan, const ops::Attention& op) {
   const int keys = op.per_draw ? ops::kRowsPerDraw : op.key_value.rows;
@@ -42,9 +43,9 @@ bool sound(Plan& plan, const ops::Attention& op) {
 void record_attention(Plan& plan, const ops::Attention& op) {
   if (!sound(plan, op)) return;
   const int lanes = plan.lanes();
-  const int queries = lanes <= kLanesForTwo ? kQueries : 1;
+  const int queries = std::clamp(ops::kRowsPerDraw / lanes, 1, kMostQueries);
   const int columns =
-      op.per_draw ? std::max(op.query.columns, op.key_value.columns) : op.query.columns;
+      op.per_draw ? std::max(plan.pitch(op.query), plan.pitch(op.key_value)) : plan.pitch(op.query);
   for (const Window rows : Plan::windows(op.query.rows, plan.most_texels() / (columns / 4))) {
     const Range query = plan.rows(op.query, rows);
     const bool by_draw_valid = op.key_valid && op.per_draw;
@@ -63,9 +64,9 @@ void record_attention(Plan& plan, const ops::Attention& op) {
          .per_draw = op.per_draw ? 1 : 0,
          .has_valid = op.key_valid ? 1 : 0},
         {.rows = rows.count,
-         .query_stride = op.query.columns / 4,
+         .query_stride = plan.pitch(op.query) / 4,
          .query_column = op.query_column / 4,
-         .key_value_stride = op.key_value.columns / 4,
+         .key_value_stride = plan.pitch(op.key_value) / 4,
          .key_column = op.key_column / 4,
          .value_column = op.value_column / 4},
         {static_cast<std::uint32_t>((rows.count + lanes * queries - 1) / (lanes * queries)),

@@ -16,6 +16,7 @@ struct Range {
 
 enum class BindingKind : std::uint8_t {
   kTexels,   ///< samplerBuffer of RGBA32F: the fast read on every driver
+  kHalves,   ///< samplerBuffer of RGBA16F
   kScalars,  ///< samplerBuffer of R32F
   kStorage,  ///< std430 buffer
 };
@@ -33,6 +34,15 @@ struct Texels {
   Range range;
   operator Binding() const {  // NOLINT
     return {BindingKind::kTexels, true, false, range};
+  }
+};
+
+/// Texels of f32 or of f16: the kernel does not see which.
+struct Weights {
+  Range range;
+  bool halves = false;
+  operator Binding() const {  // NOLINT
+    return {halves ? BindingKind::kHalves : BindingKind::kTexels, true, false, range};
   }
 };
 

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cassert>
 #include <cstring>
 
@@ -19,7 +18,7 @@ Packing packing_of(GemmFamily family, int out, int in, std::span<const float> we
   if (out == ops::kWidth && in >= 1 && in <= kNarrowInputs) return Packing::kNarrow;
   if (in == ops::kWidth && out >= 3 && out <= kHeadOutputs) return Packing::kHead;
   const int depth = family == GemmFamily::kSimd ? 16 : 64;
-  if (out % kPanel != 0 || in % depth != 0 || in <= 0) return Packing::kNone;
+  if (out % kColumns != 0 || in % depth != 0 || in <= 0) return Packing::kNone;
   if (family == GemmFamily::kSimd) return Packing::kPanels;
   return family == GemmFamily::kMatrix || are_halves(weight) ? Packing::kHalves : Packing::kRows;
 }
@@ -36,39 +35,55 @@ std::vector<float> padded(std::span<const float> values, int rows, int columns, 
   return result;
 }
 
-}  // namespace
-
-std::vector<float> pack_panels(std::span<const float> weight, int out, int in) {
+/// [out/panel][in/4][panel] fours of words.
+template <class Word, class Convert>
+std::vector<Word> in_panels(std::span<const float> weight, int out, int in, int panel,
+                            const Convert& convert) {
   constexpr int kBlock = 8;  // columns read side by side: each stays in the cache
-  std::vector<float> packed(weight.size());
+  std::vector<Word> packed(weight.size());
   for (int first = 0; first < out; first += kBlock) {
-    const std::size_t panel = static_cast<std::size_t>(first / kPanel) * (in / 4) * kPanel;
-    float* const to = packed.data() + (panel + static_cast<std::size_t>(first % kPanel)) * 4;
+    const std::size_t start = static_cast<std::size_t>(first / panel) * (in / 4) * panel;
+    Word* const to = packed.data() + (start + static_cast<std::size_t>(first % panel)) * 4;
     const float* const from = weight.data() + static_cast<std::size_t>(first) * in;
     for (int k = 0; k < in; k += 4) {
       for (int column = 0; column < kBlock; ++column) {
-        std::copy_n(from + static_cast<std::ptrdiff_t>(column) * in + k, 4,
-                    to + (static_cast<std::ptrdiff_t>(k) / 4 * kPanel + column) * 4);
+        const float* const four = from + static_cast<std::ptrdiff_t>(column) * in + k;
+        Word* const texel = to + (static_cast<std::ptrdiff_t>(k) / 4 * panel + column) * 4;
+        for (int i = 0; i < 4; ++i) texel[i] = convert(four[i]);
       }
     }
   }
   return packed;
 }
 
+/// Two halves in the place of each float.
+std::vector<float> in_pairs(const std::vector<std::uint16_t>& halves) {
+  std::vector<float> pairs(halves.size() / 2);
+  std::memcpy(pairs.data(), halves.data(), pairs.size() * sizeof(float));
+  return pairs;
+}
+
+}  // namespace
+
+std::vector<float> pack_panels(std::span<const float> weight, int out, int in, int panel) {
+  return in_panels<float>(weight, out, in, panel, [](float value) { return value; });
+}
+
+std::vector<float> pack_half_panels(std::span<const float> weight, int out, int in, int panel) {
+  assert(are_halves(weight));
+  return in_pairs(in_panels<std::uint16_t>(weight, out, in, panel, weights::exact_half));
+}
+
 std::vector<float> pack_halves(std::span<const float> weight) {
-  std::vector<float> packed(weight.size() / 2);
-  for (std::size_t i = 0; i < packed.size(); ++i) {
-    const std::array<std::uint16_t, 2> pair{weights::float_to_half(weight[2 * i]),
-                                            weights::float_to_half(weight[2 * i + 1])};
-    std::memcpy(&packed[i], pair.data(), sizeof(float));
-  }
-  return packed;
+  std::vector<std::uint16_t> halves(weight.size());
+  std::transform(weight.begin(), weight.end(), halves.begin(), weights::float_to_half);
+  return in_pairs(halves);
 }
 
 bool are_halves(std::span<const float> weight) {
-  return std::all_of(weight.begin(), weight.end(), [](float value) {
-    return weights::half_to_float(weights::float_to_half(value)) == value;
-  });
+  bool all = true;
+  for (const float value : weight) all &= weights::is_half(value);
+  return all;
 }
 
 DenseLayer keep_layer(Plan& plan, std::string_view name, int out, int in,
@@ -83,9 +98,12 @@ DenseLayer keep_layer(Plan& plan, std::string_view name, int out, int in,
   const auto keep = [&](int rows, int columns, std::vector<float> content) {
     return plan.tensor(Home::kDevice, name, rows, columns, std::move(content));
   };
+  const int panel = plan.lanes() * plan.gemm().columns;
   switch (layer.packing) {
     case Packing::kPanels:
-      layer.weight = keep(out, in, pack_panels(weight, out, in));
+      layer.halves = are_halves(weight);
+      layer.weight = layer.halves ? keep(out, in / 2, pack_half_panels(weight, out, in, panel))
+                                  : keep(out, in, pack_panels(weight, out, in, panel));
       layer.bias = keep(1, out, {bias.begin(), bias.end()});
       break;
     case Packing::kRows:

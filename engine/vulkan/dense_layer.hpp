@@ -10,7 +10,7 @@
 namespace flowdlo::vulkan {
 
 enum class Packing {
-  kPanels,  ///< in a multiple of 16, out of 256: [out/256][in/4][256] texels; gemm
+  kPanels,  ///< in a multiple of 16, out of 256: [out/P][in/4][P] texels, f32 or f16; gemm
   kRows,    ///< the same, [out, in] as it is; tile_gemm
   kHalves,  ///< the same, [out, in] of f16; tile_gemm and matrix_gemm
   kNarrow,  ///< in at most 8, out 256: [256, 8], zeros from `in` on; narrow
@@ -22,18 +22,25 @@ struct DenseLayer {
   Packing packing = Packing::kNone;
   int in = 0;
   int out = 0;
+  bool halves = false;  ///< of kPanels: its texels are f16
   ops::Tensor weight;
   ops::Tensor bias;
 };
 
-inline constexpr int kPanel = 256;  ///< columns of y that lie side by side in gemm's weights
+inline constexpr int kColumns = 256;  ///< gemm's kernels take columns of y in multiples of these
 
 [[nodiscard]] inline bool is_gemm(Packing packing) {
   return packing == Packing::kPanels || packing == Packing::kRows || packing == Packing::kHalves;
 }
 
-/// [out/256][in/4][256] texels of four: consecutive k of one column. `weight` is [out, in].
-[[nodiscard]] std::vector<float> pack_panels(std::span<const float> weight, int out, int in);
+/// [out/panel][in/4][panel] texels of four: consecutive k of one column. `weight` is [out, in];
+/// `panel` divides out and is a multiple of 8.
+[[nodiscard]] std::vector<float> pack_panels(std::span<const float> weight, int out, int in,
+                                             int panel);
+
+/// The same of halves, two in the place of each float; every value is an f16.
+[[nodiscard]] std::vector<float> pack_half_panels(std::span<const float> weight, int out, int in,
+                                                  int panel);
 
 /// Two f16 in the place of each float, nearest even; `weight` has an even size.
 [[nodiscard]] std::vector<float> pack_halves(std::span<const float> weight);

@@ -18,6 +18,17 @@ std::string key_of(const Dispatch& dispatch) {
   return key;
 }
 
+VkFormat format_of(BindingKind kind) {
+  switch (kind) {
+    case BindingKind::kTexels:
+      return VK_FORMAT_R32G32B32A32_SFLOAT;
+    case BindingKind::kHalves:
+      return VK_FORMAT_R16G16B16A16_SFLOAT;
+    default:
+      return VK_FORMAT_R32_SFLOAT;
+  }
+}
+
 }  // namespace
 
 Result<VkBufferView> Descriptors::view_of(const Device& device, const Plan& plan,
@@ -29,9 +40,7 @@ Result<VkBufferView> Descriptors::view_of(const Device& device, const Plan& plan
                                     .pNext = nullptr,
                                     .flags = 0,
                                     .buffer = place.buffer,
-                                    .format = binding.kind == BindingKind::kTexels
-                                                  ? VK_FORMAT_R32G32B32A32_SFLOAT
-                                                  : VK_FORMAT_R32_SFLOAT,
+                                    .format = format_of(binding.kind),
                                     .offset = place.offset,
                                     .range = binding.range.size};
   auto view =

@@ -25,7 +25,7 @@ struct GemmCall {
   static ShaderCode shader() { return shaders::gemm(); }
 
   Texels x;
-  Texels weight;
+  Weights weight;
   Texels bias;
   Texels residual;
   Writes y;

@@ -4,6 +4,15 @@
 #include <limits>
 
 namespace flowdlo::vulkan {
+namespace {
+
+// Rows of these many bytes begin in one and the same set of a first-level cache: the 32 rows that a
+// subgroup of gemm reads side by side would drive one another out. A line of 64 bytes between them
+// spreads them.
+constexpr int kSetBytes = 4096;
+constexpr int kGap = 16;
+
+}  // namespace
 
 ops::Tensor Plan::tensor(Home home, std::string_view name, int rows, int columns,
                          std::vector<float> content) {
@@ -12,8 +21,40 @@ ops::Tensor Plan::tensor(Home home, std::string_view name, int rows, int columns
   return {resources_.add(home, bytes, name, std::move(content)), rows, columns};
 }
 
+ops::Tensor Plan::scratch(std::string_view name, int rows, int columns) {
+  const bool is_cpu = device_->facts().report.kind == DeviceKind::kCpu;
+  const bool spreads = chosen_ && is_cpu && gemm_.family == GemmFamily::kSimd &&
+                       columns * static_cast<int>(sizeof(float)) % kSetBytes == 0;
+  const ops::Tensor placed = tensor(Home::kDevice, name, rows, spreads ? columns + kGap : columns);
+  return {placed.id, rows, columns};
+}
+
+Range Plan::zeros(int columns) {
+  if (!zeros_ || zeros_->columns < columns) zeros_ = tensor(Home::kDevice, "zeros", 1, columns);
+  return whole(*zeros_);
+}
+
+int Plan::pitch(const ops::Tensor& tensor) const {
+  const VkDeviceSize floats = whole(tensor).size / sizeof(float);
+  return static_cast<int>(floats / static_cast<VkDeviceSize>(tensor.rows));
+}
+
+void Plan::copy(const ops::Tensor& from, const ops::Tensor& to) {
+  if (pitch(from) == from.columns && pitch(to) == to.columns) {
+    steps_.emplace_back(CopyBytes{whole(from), whole(to)});
+    return;
+  }
+  const VkDeviceSize bytes = sizeof(float) * static_cast<VkDeviceSize>(from.columns);
+  for (int row = 0; row < from.rows; ++row) {
+    Range source = rows(from, {row, 1});
+    Range target = rows(to, {row, 1});
+    source.size = target.size = bytes;
+    steps_.emplace_back(CopyBytes{source, target});
+  }
+}
+
 Range Plan::rows(const ops::Tensor& tensor, Window window) const {
-  const VkDeviceSize row_bytes = VkDeviceSize{4} * static_cast<VkDeviceSize>(tensor.columns);
+  const VkDeviceSize row_bytes = VkDeviceSize{4} * static_cast<VkDeviceSize>(pitch(tensor));
   return {tensor.id, row_bytes * static_cast<VkDeviceSize>(window.first),
           row_bytes * static_cast<VkDeviceSize>(window.count)};
 }

@@ -58,11 +58,21 @@ class Plan {
   explicit Plan(const Device& device) : device_(&device) {}
 
   /// How dense layers run; before the first of them.
-  void choose(const GemmChoice& gemm) { gemm_ = gemm; }
+  void choose(const GemmChoice& gemm) {
+    gemm_ = gemm;
+    chosen_ = true;
+  }
 
+  /// Rows lie side by side, without a gap.
   [[nodiscard]] ops::Tensor tensor(Home home, std::string_view name, int rows, int columns,
                                    std::vector<float> content = {});
+  /// What operations alone see: rows may lie further apart than they are long.
+  [[nodiscard]] ops::Tensor scratch(std::string_view name, int rows, int columns);
+  /// At least that many zeros in a row: an addend for a kernel that wants one.
+  [[nodiscard]] Range zeros(int columns);
   [[nodiscard]] Range whole(const ops::Tensor& tensor) const { return resources_.whole(tensor.id); }
+  /// Floats from one row to the next.
+  [[nodiscard]] int pitch(const ops::Tensor& tensor) const;
   [[nodiscard]] Range rows(const ops::Tensor& tensor, Window window) const;
 
   /// Whether a texel buffer may hold the range.
@@ -92,7 +102,8 @@ class Plan {
     std::memcpy(words.data(), &constants, sizeof(constants));
     add(Call::shader(), Call::kUsesSubgroups, std::move(words), std::move(step));
   }
-  void copy(const Range& from, const Range& to) { steps_.emplace_back(CopyBytes{from, to}); }
+  /// Tensors of one shape.
+  void copy(const ops::Tensor& from, const ops::Tensor& to);
   void stage(std::string_view name) { steps_.emplace_back(StageMark{std::string(name)}); }
   /// A recording that this device, or this room, cannot carry out; build() reports all of them.
   void fault(std::string text) { faults_.push_back(std::move(text)); }
@@ -113,7 +124,9 @@ class Plan {
 
   const Device* device_;
   GemmChoice gemm_;
+  bool chosen_ = false;
   Resources resources_;
+  std::optional<ops::Tensor> zeros_;
   std::vector<KernelSpec> kernels_;
   std::map<std::string, std::size_t> kernel_index_;
   std::vector<Step> steps_;

@@ -80,7 +80,7 @@ void Program::record(const ops::FlowStep& op) {
 
 void Program::record(const ops::Copy& op) {
   assert(op.from.rows == op.to.rows && op.from.columns == op.to.columns);
-  work_->plan.copy(work_->plan.whole(op.from), work_->plan.whole(op.to));
+  work_->plan.copy(op.from, op.to);
 }
 
 Result<void> Program::compile() {

@@ -32,7 +32,7 @@ class Program final : public ops::Program {
     return work_->plan.tensor(Home::kOutput, name, rows, columns);
   }
   ops::Tensor scratch(std::string_view name, int rows, int columns) override {
-    return work_->plan.tensor(Home::kDevice, name, rows, columns);
+    return work_->plan.scratch(name, rows, columns);
   }
   ops::Tensor constant(std::string_view name, int rows, int columns,
                        std::span<const float> values) override {

@@ -1,5 +1,7 @@
 #include "vulkan/resources.hpp"
 
+#include <algorithm>
+#include <array>
 #include <bit>
 #include <cassert>
 #include <cstring>
@@ -21,6 +23,21 @@ constexpr VkMemoryPropertyFlags kCached = VK_MEMORY_PROPERTY_HOST_CACHED_BIT;
 constexpr VkMemoryPropertyFlags kLocal = VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT;
 
 std::size_t index_of(Home home) { return static_cast<std::size_t>(home); }
+
+/// Gives the memory back: `content = {}` would only empty it.
+void release(std::vector<float>& content) { std::vector<float>().swap(content); }
+
+/// Zeros. A CPU driver's memory is fresh from the system, all zeros and not there until it is
+/// written to: a look costs less than the megabytes that no frame may ever use.
+void clear(std::byte* memory, VkDeviceSize bytes, bool may_look) {
+  constexpr VkDeviceSize kPage = 4096;
+  static constexpr std::array<std::byte, kPage> kZeros{};
+  for (VkDeviceSize at = 0; at < bytes; at += kPage) {
+    const VkDeviceSize size = std::min(kPage, bytes - at);
+    if (may_look && std::memcmp(memory + at, kZeros.data(), size) == 0) continue;
+    std::memset(memory + at, 0, size);
+  }
+}
 
 }  // namespace
 
@@ -61,8 +78,8 @@ Result<void> Resources::allocate(const Device& device) {
                            : Buffer::create(device, sizes[2], kUsage, {kLocal, 0}, "tensors");
   if (!own) return own.error();
   buffers_ = {*std::move(inputs), *std::move(outputs), *std::move(own)};
-  std::memset(buffers_[0].mapped(), 0, buffers_[0].size());
-  std::memset(buffers_[1].mapped(), 0, buffers_[1].size());
+  clear(buffers_[0].mapped(), buffers_[0].size(), shares_memory);
+  clear(buffers_[1].mapped(), buffers_[1].size(), shares_memory);
   if (buffers_[2].mapped() != nullptr) fill_own();
   for (const Buffer& buffer : buffers_) {
     const auto flushed = buffer.flush(device);
@@ -74,13 +91,13 @@ Result<void> Resources::allocate(const Device& device) {
 void Resources::fill_own() {
   std::byte* const memory = buffers_[index_of(Home::kDevice)].mapped();
   VkDeviceSize filled = 0;
-  const auto zeros_to = [&](VkDeviceSize end) { std::memset(memory + filled, 0, end - filled); };
+  const auto zeros_to = [&](VkDeviceSize end) { clear(memory + filled, end - filled, true); };
   for (Item& item : items_) {
     if (item.content.empty()) continue;
     zeros_to(item.offset);
     std::memcpy(memory + item.offset, item.content.data(), item.bytes);
     filled = item.offset + item.bytes;
-    item.content = {};
+    release(item.content);
   }
   zeros_to(buffers_[index_of(Home::kDevice)].size());
 }
@@ -100,7 +117,7 @@ Result<Buffer> Resources::record_upload(const Device& device, VkCommandBuffer co
     std::memcpy(staging->mapped() + offset, item.content.data(), item.bytes);
     copies.push_back({.srcOffset = offset, .dstOffset = item.offset, .size = item.bytes});
     offset += item.bytes;
-    item.content = {};
+    release(item.content);
   }
   const auto flushed = staging->flush(device);
   if (!flushed) return flushed.error();

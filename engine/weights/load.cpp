@@ -7,6 +7,7 @@
 #include "flowdlo_weights_generated.h"
 #include "weights/fdw.hpp"
 #include "weights/file.hpp"
+#include "weights/kept_file.hpp"
 #include "weights/metadata.hpp"
 #include "weights/stored_tensor.hpp"
 
@@ -99,22 +100,23 @@ StoredTensor stored_tensor(const fdw::Tensor& tensor) {
   return result;
 }
 
-}  // namespace
+std::vector<StoredTensor> stored_tensors(const fdw::Weights& root) {
+  std::vector<StoredTensor> stored;
+  for (const fdw::Tensor* tensor : *root.tensors()) stored.push_back(stored_tensor(*tensor));
+  return stored;
+}
 
-Result<FdwFile> read_fdw(const std::filesystem::path& file) {
-  const auto bytes = read_file(file);
-  if (!bytes) return bytes.error();
-  const std::string envelope = envelope_fault(bytes->view());
+Result<FdwFile> parsed(const FileBytes& bytes, const std::filesystem::path& file) {
+  const std::string envelope = envelope_fault(bytes.view());
   if (!envelope.empty()) return bad_weights(file, {envelope});
 
-  const fdw::Weights& root = *fdw::GetWeights(bytes->data.get());
+  const fdw::Weights& root = *fdw::GetWeights(bytes.data.get());
   std::vector<std::string> faults;
   FdwFile result;
   result.weights.metadata = metadata_of(*root.metadata(), faults);
   const Variant variant = usable(result.weights.metadata.variant);
 
-  std::vector<StoredTensor> stored;
-  for (const fdw::Tensor* tensor : *root.tensors()) stored.push_back(stored_tensor(*tensor));
+  const auto stored = stored_tensors(root);
   const auto matched = match(stored, variant, kStorable, faults);
   result.weights.tensors = decode(matched, variant, faults);
   result.sha256 = digest(matched);
@@ -129,6 +131,31 @@ Result<FdwFile> read_fdw(const std::filesystem::path& file) {
     result.types.push_back(tensor->dtype == DType::kF16 ? StorageType::kF16 : StorageType::kF32);
   }
   return result;
+}
+
+}  // namespace
+
+Weights KeptFile::decoded() const {
+  std::vector<std::string> faults;  // none: they were looked for when the file was read
+  const auto stored = stored_tensors(*fdw::GetWeights(bytes_.data.get()));
+  const auto matched = match(stored, metadata_.variant, kStorable, faults);
+  return {metadata_, decode(matched, metadata_.variant, faults)};
+}
+
+Result<FdwFile> read_fdw(const std::filesystem::path& file) {
+  const auto bytes = read_file(file);
+  if (!bytes) return bytes.error();
+  return parsed(*bytes, file);
+}
+
+Result<Loaded> load_and_keep(const std::filesystem::path& file) {
+  auto bytes = read_file(file);
+  if (!bytes) return bytes.error();
+  auto read = parsed(*bytes, file);
+  if (!read) return read.error();
+  auto weights = std::make_shared<const Weights>(std::move(read->weights));
+  KeptFile kept(*std::move(bytes), weights->metadata);
+  return Loaded{std::move(weights), std::make_shared<const KeptFile>(std::move(kept))};
 }
 
 Result<Weights> load(const std::filesystem::path& file) {

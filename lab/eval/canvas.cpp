@@ -1,8 +1,9 @@
 #include "eval/canvas.hpp"
 
 #include <array>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
+
+#include "frame/png.hpp"
 
 namespace flowdlo::eval {
 namespace {
@@ -64,10 +65,6 @@ void Canvas::legend(const Legend& entries, cv::Point at) {
 
 void Canvas::grid_line(cv::Point from, cv::Point to) { cv::line(picture_, from, to, kGrid); }
 
-Result<std::vector<std::uint8_t>> Canvas::png() const {
-  std::vector<std::uint8_t> bytes;
-  if (cv::imencode(".png", picture_, bytes)) return bytes;
-  return Error{ErrorCode::kInternal, "eval: expected a picture to be encoded as PNG, got nothing"};
-}
+Result<std::vector<std::uint8_t>> Canvas::png() const { return frame::encode_png(picture_); }
 
 }  // namespace flowdlo::eval

@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
+
+#include "frame/png.hpp"
 
 namespace flowdlo::eval {
 namespace {
@@ -98,9 +99,7 @@ Result<std::vector<std::uint8_t>> error_overlay_png(const Frame& frame, const Ce
   picture.copyTo(both(cv::Rect(0, 0, picture.cols, picture.rows)));
   cv::Mat plot = both(cv::Rect(picture.cols, 0, kPlotWidth, picture.rows));
   draw_depths(truth, nodes, support, plot);
-  std::vector<std::uint8_t> bytes;
-  if (cv::imencode(".png", both, bytes)) return bytes;
-  return Error{ErrorCode::kInternal, "eval: expected a picture to be encoded as PNG, got nothing"};
+  return frame::encode_png(both);
 }
 
 }  // namespace flowdlo::eval

@@ -6,9 +6,10 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <string>
+
+#include "frame/png.hpp"
 
 namespace flowdlo::eval {
 namespace {
@@ -49,12 +50,6 @@ void draw_legend(cv::Mat& picture) {
     write(picture, line.title, {x + 20, 34});
     x += 150;
   }
-}
-
-Result<std::vector<std::uint8_t>> encoded(const cv::Mat& picture) {
-  std::vector<std::uint8_t> bytes;
-  if (cv::imencode(".png", picture, bytes)) return bytes;
-  return Error{ErrorCode::kInternal, "eval: expected a picture to be encoded as PNG, got nothing"};
 }
 
 // cm, of the trials in which every method gave something.
@@ -113,7 +108,7 @@ Result<std::vector<std::uint8_t>> error_bars_png(std::span<const Trial> trials) 
     x += kGroupWidth;
   }
   draw_legend(picture);
-  return encoded(picture);
+  return frame::encode_png(picture);
 }
 
 Result<std::vector<std::uint8_t>> error_curve_png(std::span<const Trial> trials) {
@@ -145,7 +140,7 @@ Result<std::vector<std::uint8_t>> error_curve_png(std::span<const Trial> trials)
   }
   write(picture, "share of frames with an index error (Eq. 4.1) below", {kLeft, kTop - 8}, 0.42);
   draw_legend(picture);
-  return encoded(picture);
+  return frame::encode_png(picture);
 }
 
 }  // namespace flowdlo::eval

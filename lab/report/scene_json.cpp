@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <utility>
 #include <vector>
@@ -13,6 +12,7 @@
 #include "eval/scene_group.hpp"
 #include "flowdlo/frame_folder.hpp"
 #include "report/base64.hpp"
+#include "report/jpeg.hpp"
 
 namespace flowdlo::report {
 namespace {
@@ -60,8 +60,8 @@ std::string picture_of(const eval::Trial& trial) {
   cv::Mat small;
   const double zoom = static_cast<double>(kPictureWidth) / folder->width;
   cv::resize(image, small, {}, zoom, zoom, cv::INTER_AREA);
-  std::vector<std::uint8_t> bytes;
-  if (!cv::imencode(".jpg", small, bytes, {cv::IMWRITE_JPEG_QUALITY, kQuality})) return {};
+  const auto bytes = encode_jpeg(small, kQuality);
+  if (bytes.empty()) return {};
   return "data:image/jpeg;base64," + base64(bytes);
 }
 

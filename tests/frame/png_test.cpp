@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <opencv2/core.hpp>
+#include <opencv2/imgcodecs.hpp>
 
 namespace flowdlo::frame {
 namespace {
@@ -39,6 +40,31 @@ TEST(Png, EveryKindReadsBackAsStored) {
     ASSERT_EQ(image->type(), type);
     EXPECT_EQ(cv::norm(*image, gradient(type), cv::NORM_INF), 0);
   }
+}
+
+TEST(Png, OpenCvReadsWhatIsWritten) {
+  for (const int type : {CV_8UC1, CV_8UC3, CV_8UC4, CV_16UC1, CV_16UC3}) {
+    const cv::Mat image = cv::imdecode(encoded(type), cv::IMREAD_UNCHANGED);
+    ASSERT_EQ(image.type(), type);
+    EXPECT_EQ(cv::norm(image, gradient(type), cv::NORM_INF), 0);
+  }
+}
+
+TEST(Png, OneBitAPixelBecomesEight) {
+  std::vector<std::uint8_t> bytes;
+  const cv::Mat stripes = gradient(CV_8UC1) > 127;
+  cv::imencode(".png", stripes, bytes, {cv::IMWRITE_PNG_BILEVEL, 1});
+
+  const auto image = decode_png(bytes, "a.png");
+
+  ASSERT_TRUE(image) << image.error().message;
+  ASSERT_EQ(image->type(), CV_8UC1);
+  EXPECT_EQ(cv::norm(*image, stripes, cv::NORM_INF), 0);
+}
+
+TEST(Png, ImageOfFloatsIsNotWritten) {
+  EXPECT_FALSE(encode_png(cv::Mat::zeros(2, 2, CV_32FC1)));
+  EXPECT_FALSE(encode_png(cv::Mat()));
 }
 
 TEST(Png, CutShortAnywhereIsRefused) {

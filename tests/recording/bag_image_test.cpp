@@ -160,5 +160,15 @@ TEST(BagImage, HueMayGoThroughRed) {
   EXPECT_EQ(blue.at<std::uint8_t>(0, 2), 255);
 }
 
+TEST(BagImage, JpegCutShortIsRefused) {
+  auto jpeg = packed_message(bgr_image(), ".jpg", "rgb8; jpeg compressed bgr8");
+  jpeg.data.resize(jpeg.data.size() * 3 / 4);
+
+  const auto color = color_image(jpeg, "c");
+
+  ASSERT_FALSE(color);
+  EXPECT_THAT(color.error().message, HasSubstr("expected a JPEG or PNG"));
+}
+
 }  // namespace
 }  // namespace flowdlo::recording

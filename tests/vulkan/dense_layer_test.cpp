@@ -13,7 +13,7 @@ TEST(PackPanels, PutsFourConsecutiveInputsOfAColumnIntoATexelAndColumnsSideBySid
   std::vector<float> weight(kOut * kIn);
   for (std::size_t i = 0; i < weight.size(); ++i) weight[i] = static_cast<float>(i);
 
-  const std::vector<float> packed = pack_panels(weight, kOut, kIn);
+  const std::vector<float> packed = pack_panels(weight, kOut, kIn, 256);
 
   const auto at = [&](std::size_t panel, std::size_t k4, std::size_t column, std::size_t k) {
     return packed[((panel * 4 + k4) * 256 + column) * 4 + k];
@@ -23,6 +23,16 @@ TEST(PackPanels, PutsFourConsecutiveInputsOfAColumnIntoATexelAndColumnsSideBySid
   EXPECT_EQ(at(0, 0, 1, 0), weight[16]);
   EXPECT_EQ(at(0, 2, 5, 1), weight[5 * 16 + 9]);
   EXPECT_EQ(at(1, 3, 7, 2), weight[(256 + 7) * 16 + 14]);
+}
+
+TEST(PackHalfPanels, HoldsTheSameInHalfTheSpace) {
+  constexpr int kOut = 256;
+  constexpr int kIn = 16;
+  std::vector<float> weight(kOut * kIn);
+  for (std::size_t i = 0; i < weight.size(); ++i) weight[i] = static_cast<float>(i % 2048) / 8;
+
+  EXPECT_EQ(pack_half_panels(weight, kOut, kIn, 64),
+            pack_halves(pack_panels(weight, kOut, kIn, 64)));
 }
 
 TEST(PackHalves, PutsTwoValuesIntoThePlaceOfOne) {

@@ -39,6 +39,30 @@ TEST(Half, EveryNumberSurvivesTheWayThroughFloat) {
   }
 }
 
+TEST(Half, EveryNumberIsOneExactly) {
+  for (std::uint32_t pattern = 0; pattern <= 0xFFFFU; ++pattern) {
+    const auto half = static_cast<std::uint16_t>(pattern);
+    const float value = half_to_float(half);
+    ASSERT_EQ(is_half(value), std::isfinite(value)) << pattern;
+    if (!std::isfinite(value)) continue;
+    ASSERT_EQ(exact_half(value), half) << pattern;
+  }
+}
+
+TEST(Half, NumbersBetweenAreNone) {
+  for (std::uint64_t block = 0; block < 50000; ++block) {
+    for (const std::uint32_t word : random::philox(2, block)) {
+      const float value = std::bit_cast<float>(word);
+      ASSERT_EQ(is_half(value),
+                std::isfinite(value) && half_to_float(float_to_half(value)) == value)
+          << value;
+    }
+  }
+  EXPECT_FALSE(is_half(std::numeric_limits<float>::denorm_min()));
+  EXPECT_FALSE(is_half(0x1.8p-24F)) << "between the first two subnormals";
+  EXPECT_FALSE(is_half(65536.0F)) << "beyond the largest";
+}
+
 TEST(Half, TiesGoToTheEvenNeighbour) {
   EXPECT_EQ(half_to_float(float_to_half(2049.0F)), 2048.0F);
   EXPECT_EQ(half_to_float(float_to_half(2051.0F)), 2052.0F);

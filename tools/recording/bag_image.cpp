@@ -5,11 +5,12 @@
 #include <algorithm>
 #include <cstring>
 #include <map>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <span>
 
 #include "frame/limits.hpp"
+#include "frame/png.hpp"
+#include "recording/jpeg.hpp"
 
 namespace flowdlo::recording {
 namespace {
@@ -67,20 +68,29 @@ void swap_bytes(cv::Mat& pixels) {
   }
 }
 
-Result<cv::Mat> decoded(std::span<const std::uint8_t> bytes, int flags, const std::string& format,
-                        const std::string& who) {
-  cv::Mat picture;
-  if (!bytes.empty()) {
-    const cv::Mat data(1, static_cast<int>(bytes.size()), CV_8UC1,
-                       const_cast<std::uint8_t*>(bytes.data()));  // only read
-    try {
-      picture = cv::imdecode(data, flags | cv::IMREAD_IGNORE_ORIENTATION);
-    } catch (const cv::Exception&) {  // told below
-    }
+enum class Wanted { kAsStored, kBgr, kGrey };
+
+/// 8 bits of one or three channels, as the rest of the reader wants them.
+cv::Mat converted(const cv::Mat& picture, Wanted wanted) {
+  if (wanted == Wanted::kAsStored) return picture;
+  cv::Mat bytes;
+  picture.convertTo(bytes, CV_8U, picture.depth() == CV_16U ? 1.0 / 256 : 1.0);
+  const int channels = wanted == Wanted::kGrey ? 1 : 3;
+  if (bytes.channels() == channels) return bytes;
+  if (wanted == Wanted::kGrey) {
+    cv::cvtColor(bytes, bytes, bytes.channels() == 4 ? cv::COLOR_BGRA2GRAY : cv::COLOR_BGR2GRAY);
+  } else {
+    cv::cvtColor(bytes, bytes, bytes.channels() == 4 ? cv::COLOR_BGRA2BGR : cv::COLOR_GRAY2BGR);
   }
-  const bool sound =
-      !picture.empty() && picture.cols <= frame::kMaxSide_px && picture.rows <= frame::kMaxSide_px;
-  if (sound) return picture;
+  return bytes;
+}
+
+Result<cv::Mat> decoded(std::span<const std::uint8_t> bytes, Wanted wanted,
+                        const std::string& format, const std::string& who) {
+  if (const auto png = frame::decode_png(bytes, who)) return converted(*png, wanted);
+  const JpegColors colors = wanted == Wanted::kGrey ? JpegColors::kGrey : JpegColors::kBgr;
+  cv::Mat picture = decode_jpeg(bytes, colors, frame::kMaxSide_px);
+  if (!picture.empty()) return picture;
   return bad(who, fmt::format("a JPEG or PNG of at most {} px a side", frame::kMaxSide_px),
              fmt::format("{} bytes of format \"{}\" that are none", bytes.size(), format));
 }
@@ -127,7 +137,7 @@ Result<cv::Mat> compressed_depth(const ImageMessage& message, const std::string&
     header = bytes.first(kDepthHeaderBytes);
     bytes = bytes.subspan(kDepthHeaderBytes);
   }
-  const auto picture = decoded(bytes, cv::IMREAD_UNCHANGED, message.format, who);
+  const auto picture = decoded(bytes, Wanted::kAsStored, message.format, who);
   if (!picture) return picture.error();
   if (picture->type() != CV_16UC1) {
     return bad(who, "depth as a 16-bit PNG of 1 channel",
@@ -139,7 +149,7 @@ Result<cv::Mat> compressed_depth(const ImageMessage& message, const std::string&
 }  // namespace
 
 Result<cv::Mat> color_image(const ImageMessage& message, const std::string& who) {
-  if (message.compressed) return decoded(message.data, cv::IMREAD_COLOR, message.format, who);
+  if (message.compressed) return decoded(message.data, Wanted::kBgr, message.format, who);
   const auto kind = color_kinds().find(message.encoding);
   if (kind == color_kinds().end()) {
     return bad(who, "an encoding of rgb8, bgr8, rgba8, bgra8, mono8, 8UC1, 8UC3, 8UC4",
@@ -170,9 +180,8 @@ Result<cv::Mat> mask_image(const ImageMessage& message, const std::string& who) 
   if (!message.compressed && !known) {
     return bad(who, "a mask of encoding mono8 or 8UC1", "\"" + message.encoding + "\"");
   }
-  const auto mask = message.compressed
-                        ? decoded(message.data, cv::IMREAD_GRAYSCALE, message.format, who)
-                        : raw_pixels(message, CV_8UC1, who);
+  const auto mask = message.compressed ? decoded(message.data, Wanted::kGrey, message.format, who)
+                                       : raw_pixels(message, CV_8UC1, who);
   if (!mask) return mask;
   double largest = 0;
   cv::minMaxLoc(*mask, nullptr, &largest);

@@ -1,0 +1,75 @@
+#include "report/jpeg.hpp"
+
+#include <csetjmp>
+#include <cstddef>
+#include <cstdio>   // jpeglib.h needs it before itself
+#include <cstdlib>  // std::free
+#include <opencv2/imgproc.hpp>
+
+#include <jpeglib.h>
+
+namespace flowdlo::report {
+namespace {
+
+/// libjpeg's own handler ends the process; this one jumps back.
+struct Handler {
+  jpeg_error_mgr base;
+  std::jmp_buf back;
+
+  [[noreturn]] static void jump(j_common_ptr state) {
+    std::longjmp(reinterpret_cast<Handler*>(state->err)->back, 1);
+  }
+  static void ignore(j_common_ptr) {}
+};
+
+struct Encoder {
+  jpeg_compress_struct state{};
+  Handler handler{};
+  unsigned char* bytes = nullptr;
+  unsigned long size = 0;  // NOLINT: libjpeg's type
+
+  Encoder() {
+    state.err = jpeg_std_error(&handler.base);
+    handler.base.error_exit = Handler::jump;
+    handler.base.output_message = Handler::ignore;
+  }
+  Encoder(const Encoder&) = delete;
+  Encoder& operator=(const Encoder&) = delete;
+  ~Encoder() {
+    jpeg_destroy_compress(&state);
+    std::free(bytes);
+  }
+
+  /// Nothing in here may have a destructor: libjpeg jumps out of it.
+  bool write(const cv::Mat& rgb, int quality) {
+    if (setjmp(handler.back) != 0) return false;
+    jpeg_create_compress(&state);
+    jpeg_mem_dest(&state, &bytes, &size);
+    state.image_width = static_cast<JDIMENSION>(rgb.cols);
+    state.image_height = static_cast<JDIMENSION>(rgb.rows);
+    state.input_components = 3;
+    state.in_color_space = JCS_RGB;
+    jpeg_set_defaults(&state);
+    jpeg_set_quality(&state, quality, TRUE);
+    jpeg_start_compress(&state, TRUE);
+    while (state.next_scanline < state.image_height) {
+      auto* row = const_cast<JSAMPROW>(rgb.ptr(static_cast<int>(state.next_scanline)));
+      jpeg_write_scanlines(&state, &row, 1);
+    }
+    jpeg_finish_compress(&state);
+    return true;
+  }
+};
+
+}  // namespace
+
+std::vector<std::uint8_t> encode_jpeg(const cv::Mat& image, int quality) {
+  if (image.empty() || image.type() != CV_8UC3) return {};
+  cv::Mat rgb;
+  cv::cvtColor(image, rgb, cv::COLOR_BGR2RGB);
+  Encoder encoder;
+  if (!encoder.write(rgb, quality)) return {};
+  return {encoder.bytes, encoder.bytes + encoder.size};
+}
+
+}  // namespace flowdlo::report

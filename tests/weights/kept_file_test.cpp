@@ -1,0 +1,42 @@
+#include "weights/kept_file.hpp"
+
+#include <gtest/gtest.h>
+
+#include "temporary_folder.hpp"
+
+namespace flowdlo::weights {
+namespace {
+
+using test::TemporaryFolder;
+
+void expect_equal(const Weights& got, const Weights& expected) {
+  ASSERT_EQ(got.tensors.size(), expected.tensors.size());
+  for (std::size_t i = 0; i < expected.tensors.size(); ++i) {
+    EXPECT_EQ(got.tensors[i].name, expected.tensors[i].name);
+    EXPECT_EQ(got.tensors[i].values, expected.tensors[i].values) << expected.tensors[i].name;
+  }
+  EXPECT_EQ(got.metadata.variant, expected.metadata.variant);
+}
+
+TEST(KeptFile, DecodesToWhatWasLoadedWhenTheFileIsGone) {
+  for (const StorageType type : {StorageType::kF16, StorageType::kF32}) {
+    const TemporaryFolder folder;
+    ASSERT_TRUE(save(seeded({}, 3), folder / "model.fdw", type));
+    const auto loaded = load(folder / "model.fdw");
+    const auto kept = load_and_keep(folder / "model.fdw");
+    ASSERT_TRUE(loaded && kept);
+
+    std::filesystem::remove(folder / "model.fdw");
+
+    expect_equal(*kept->weights, *loaded);
+    expect_equal(kept->file->decoded(), *loaded);
+  }
+}
+
+TEST(KeptFile, RefusesWhatLoadRefuses) {
+  const TemporaryFolder folder;
+  EXPECT_FALSE(load_and_keep(folder / "none.fdw"));
+}
+
+}  // namespace
+}  // namespace flowdlo::weights

@@ -1,0 +1,79 @@
+#include "recording/jpeg.hpp"
+
+#include <csetjmp>
+#include <cstddef>
+#include <cstdio>  // jpeglib.h needs it before itself
+#include <opencv2/imgproc.hpp>
+
+#include <jpeglib.h>
+// after jpeglib.h
+#include <jerror.h>
+
+namespace flowdlo::recording {
+namespace {
+
+/// libjpeg's own handler ends the process; this one jumps back. A file that is cut short comes as a
+/// warning, and is an error here; what cameras get wrong otherwise is read over.
+struct Handler {
+  jpeg_error_mgr base;
+  std::jmp_buf back;
+
+  [[noreturn]] static void jump(j_common_ptr state) {
+    std::longjmp(reinterpret_cast<Handler*>(state->err)->back, 1);
+  }
+  static void judge(j_common_ptr state, int level) {
+    if (level < 0 && state->err->msg_code == JWRN_JPEG_EOF) jump(state);
+  }
+};
+
+/// libjpeg jumps out of whatever fails: between setjmp and its return nothing may be alive that has
+/// a destructor.
+struct Decoder {
+  jpeg_decompress_struct state{};
+  Handler handler{};
+
+  Decoder() {
+    state.err = jpeg_std_error(&handler.base);
+    handler.base.error_exit = Handler::jump;
+    handler.base.emit_message = Handler::judge;
+  }
+  Decoder(const Decoder&) = delete;
+  Decoder& operator=(const Decoder&) = delete;
+  ~Decoder() { jpeg_destroy_decompress(&state); }
+
+  bool read_header(std::span<const std::uint8_t> bytes) {
+    if (setjmp(handler.back) != 0) return false;
+    jpeg_create_decompress(&state);
+    jpeg_mem_src(&state, bytes.data(), bytes.size());
+    return jpeg_read_header(&state, TRUE) == JPEG_HEADER_OK;
+  }
+
+  bool read_pixels(cv::Mat& image, J_COLOR_SPACE colors) {
+    if (setjmp(handler.back) != 0) return false;
+    state.out_color_space = colors;
+    jpeg_start_decompress(&state);
+    while (state.output_scanline < state.output_height) {
+      JSAMPROW row = image.ptr(static_cast<int>(state.output_scanline));
+      jpeg_read_scanlines(&state, &row, 1);
+    }
+    jpeg_finish_decompress(&state);
+    return true;
+  }
+};
+
+}  // namespace
+
+cv::Mat decode_jpeg(std::span<const std::uint8_t> bytes, JpegColors colors, int most_px) {
+  Decoder decoder;
+  if (bytes.empty() || !decoder.read_header(bytes)) return {};
+  const auto most = static_cast<JDIMENSION>(most_px);
+  if (decoder.state.image_width > most || decoder.state.image_height > most) return {};
+  const bool grey = colors == JpegColors::kGrey;
+  cv::Mat image(static_cast<int>(decoder.state.image_height),
+                static_cast<int>(decoder.state.image_width), grey ? CV_8UC1 : CV_8UC3);
+  if (!decoder.read_pixels(image, grey ? JCS_GRAYSCALE : JCS_RGB)) return {};
+  if (!grey) cv::cvtColor(image, image, cv::COLOR_RGB2BGR);
+  return image;
+}
+
+}  // namespace flowdlo::recording
