@@ -104,6 +104,19 @@ TEST_F(BagTest, CutOffBagIsToldFromOneThatWasNeverClosed) {
   EXPECT_THAT(refusal(), HasSubstr("its recording was not closed; `rosbag reindex`"));
 }
 
+TEST_F(BagTest, AnIndexThatPointsBesideAMessageIsRefused) {
+  for (const Packing packing : {Packing::kPlain, Packing::kBz2, Packing::kLz4}) {
+    std::string bag = write(packing);
+    const std::size_t op = bag.find("op=\x04");
+    ASSERT_NE(op, std::string::npos);
+    // Behind it the field "ver", the length of the entries, and the time of the first one.
+    const std::size_t offset = op + 4 + (4 + 4 + 4) + 4 + 8;
+    bag[offset] = static_cast<char>(bag[offset] + 1);
+    write_text(file(), bag);
+    EXPECT_NE(refusal().find("is damaged"), std::string::npos) << refusal();
+  }
+}
+
 TEST_F(BagTest, DamageNeverEndsTheProcess) {
   std::mt19937 dice(20261121);
   for (const Packing packing : {Packing::kPlain, Packing::kBz2, Packing::kLz4}) {

@@ -1,9 +1,12 @@
 #include "recording/bag_layout.hpp"
 
 #include <fmt/format.h>
+#include <rosbag/chunked_file.h>
+#include <rosbag/stream.h>
 
 #include <cstdint>
 #include <cstring>
+#include <exception>
 #include <fstream>
 #include <map>
 #include <set>
@@ -17,6 +20,7 @@ namespace {
 constexpr const char* kVersionLine = "#ROSBAG V2.0\n";
 constexpr std::uint64_t kMostHeaderBytes = 1U << 20U;
 constexpr std::uint64_t kMostIndexBytes = 1U << 28U;
+constexpr std::uint64_t kMostChunkBytes = 1U << 30U;
 constexpr std::size_t kIndexEntryBytes = 12;  // time, offset
 
 // Values of the field "op".
@@ -148,10 +152,17 @@ class Walker {
       return fmt::format("the chunk at byte {} has a damaged header", record.begin);
     }
     chunks_.insert(record.begin);
-    chunk_plain_ = compression->second == "none";
     messages_.clear();
-    if (!chunk_plain_) {
-      if (compression->second == "bz2" || compression->second == "lz4") return {};
+    if (compression->second != "none") {
+      rosbag::ChunkedFile no_file;
+      if (compression->second == "bz2") {
+        rosbag::BZ2Stream stream(&no_file);
+        return take_packed(record, stream);
+      }
+      if (compression->second == "lz4") {
+        rosbag::LZ4Stream stream(&no_file);
+        return take_packed(record, stream);
+      }
       return fmt::format("the chunk at byte {} is compressed as \"{}\", expected bz2 or lz4",
                          record.begin, compression->second);
     }
@@ -161,6 +172,49 @@ class Walker {
       if (inner.op == kMessage) messages_.insert(at - record.data);
     }
     return {};
+  }
+
+  // What reads bags believes every length inside a compressed chunk.
+  Fault take_packed(const Record& record, rosbag::Stream& stream) {
+    Fault damaged = fmt::format("the chunk at byte {} cannot be unpacked", record.begin);
+    const std::uint64_t size = record.end - record.data;
+    std::string packed;
+    if (chunk_size_ > kMostChunkBytes || size > kMostChunkBytes ||
+        !read_bytes(record.data, record.end, size, packed)) {
+      return damaged;
+    }
+    std::string chunk(chunk_size_, '\0');
+    try {
+      stream.decompress(reinterpret_cast<std::uint8_t*>(chunk.data()), chunk_size_,
+                        reinterpret_cast<std::uint8_t*>(packed.data()),
+                        static_cast<unsigned int>(size));
+    } catch (const std::exception&) {
+      return damaged;
+    }
+    for (std::size_t at = 0; at < chunk.size();) {
+      const std::size_t begin = at;
+      std::string header;
+      std::string data;
+      Fields fields;
+      std::uint8_t op = 0;
+      if (!read_part(chunk, at, header) || !parse_fields(header, fields) ||
+          !read_field(fields, "op", op) || !read_part(chunk, at, data)) {
+        return fmt::format("the chunk at byte {} holds a damaged record", record.begin);
+      }
+      if (op == kMessage) messages_.insert(begin);
+    }
+    return {};
+  }
+
+  // Bytes behind their length; `at` moves on. False when they run over the end.
+  static bool read_part(const std::string& bytes, std::size_t& at, std::string& part) {
+    std::uint32_t length = 0;
+    if (!read_number(bytes, at, length)) return false;
+    at += sizeof(length);
+    if (length > bytes.size() - at) return false;
+    part = bytes.substr(at, length);
+    at += length;
+    return true;
   }
 
   Fault take_index(const Record& record) {
@@ -178,8 +232,7 @@ class Walker {
       if (!read_number(entries, i * kIndexEntryBytes + sizeof(std::uint64_t), offset)) {
         return damaged;
       }
-      const bool there = chunk_plain_ ? messages_.count(offset) > 0 : offset < chunk_size_;
-      if (!there) return damaged;
+      if (messages_.count(offset) == 0) return damaged;
     }
     return {};
   }
@@ -203,8 +256,7 @@ class Walker {
   bool starts_index_ = false;
   std::set<std::uint64_t> chunks_;    // where they begin
   std::uint32_t chunk_size_ = 0;      // of the last chunk, uncompressed
-  bool chunk_plain_ = false;          // it is not compressed
-  std::set<std::uint64_t> messages_;  // of the last chunk when it is plain: offsets
+  std::set<std::uint64_t> messages_;  // of the last chunk: offsets
 };
 
 }  // namespace
