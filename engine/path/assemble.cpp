@@ -50,11 +50,7 @@ Points cubic(const StrandEnd& from, const StrandEnd& to) {
 }
 
 bool inside(const Points& points, const cv::Mat& mask) {
-  return std::all_of(points.begin(), points.end(), [&](const Vector2f& p) {
-    const auto u = static_cast<int>(std::lround(p.x()));
-    const auto v = static_cast<int>(std::lround(p.y()));
-    return u >= 0 && v >= 0 && u < mask.cols && v < mask.rows && mask.at<std::uint8_t>(v, u) != 0;
-  });
+  return std::all_of(points.begin(), points.end(), [&](const Vector2f& p) { return lit(mask, p); });
 }
 
 // Bridges from node to node inside a crossing, shortest way; empty when they do not connect.
@@ -130,22 +126,24 @@ bool side_by_side(const Strands& strands, const std::vector<int>& way) {
 }
 
 // From a tip back along its strand, and on to what it turns to.
-void fold_back(const Strands& strands, int tip, int to, Drawn& drawn) {
+Points way_back(const Strands& strands, int tip, int to) {
   Points points = strands.list[tip / 2].points_px;
   if (tip % 2 == 1) std::reverse(points.begin(), points.end());
-  for (const Vector2f& p : points) drawn.add(p, false);
-  for (const Vector2f& p : cubic(strands.end(tip ^ 1), strands.end(to))) drawn.add(p, false);
+  const Points on = cubic(strands.end(tip ^ 1), strands.end(to));
+  points.insert(points.end(), on.begin(), on.end());
+  return points;
 }
 
 // Through a crossing the cubic is the better guess (the skeleton there is pulled to the middle),
 // as long as it stays in the mask; otherwise the skeleton is followed.
 void draw_bond(const Strands& strands, const Region& region, const Cover& cover, int from_id,
                int to_id, Drawn& drawn) {
-  if (strands.folds(from_id, to_id)) return fold_back(strands, from_id, to_id, drawn);
-  if (strands.folds(to_id, from_id)) {
-    Drawn back;
-    fold_back(strands, to_id, from_id, back);
-    for (auto it = back.points.rbegin(); it != back.points.rend(); ++it) drawn.add(*it, false);
+  const bool leaves_tip = strands.folds(from_id, to_id);
+  if (leaves_tip || strands.folds(to_id, from_id)) {
+    Points points =
+        leaves_tip ? way_back(strands, from_id, to_id) : way_back(strands, to_id, from_id);
+    if (!leaves_tip) std::reverse(points.begin(), points.end());
+    for (const Vector2f& p : points) drawn.add(p, false);
     return;
   }
   const StrandEnd& from = strands.end(from_id);
@@ -172,7 +170,7 @@ Points run_out(const StrandEnd& end, const cv::Mat& mask, float width_px) {
   const auto most = static_cast<int>(to_middle + kBulgeMost * width_px);
   for (int step = 1; step <= most; ++step) {
     const Vector2f p = end.point_px + static_cast<float>(step) * end.outward;
-    if (!inside({p}, mask)) break;
+    if (!lit(mask, p)) break;
     points.push_back(p);
   }
   const float beyond = static_cast<float>(points.size()) - to_middle;

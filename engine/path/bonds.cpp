@@ -258,8 +258,9 @@ class Builder {
 
   void link(int a, int b, float extra) {
     if (a / 2 == b / 2 || strands_.folds(a, b) || strands_.folds(b, a)) return;
-    const float cost = extra + cost_across(strands_.end(a), strands_.end(b), most_for(a, b));
-    if (cost < most_for(a, b)) add(a, b, cost, true);
+    const float most = most_for(a, b);
+    const float cost = extra + cost_across(strands_.end(a), strands_.end(b), most);
+    if (cost < most) add(a, b, cost, true);
   }
 
   // No gap costs more than leaving out what lies beyond it.

@@ -5,6 +5,8 @@
 #include <tuple>
 #include <utility>
 
+#include "path/midline.hpp"
+
 namespace flowdlo::path {
 namespace {
 
@@ -174,12 +176,6 @@ class Tracer {
   std::vector<cv::Point> pixels_;
   Graph graph_;
 };
-
-float length_of(const std::vector<Vector2f>& points) {
-  float sum = 0;
-  for (std::size_t i = 1; i < points.size(); ++i) sum += (points[i] - points[i - 1]).norm();
-  return sum;
-}
 
 void Tracer::add_segment(std::vector<Vector2f> points, int a, int b) {
   const auto id = static_cast<int>(graph_.segments.size());

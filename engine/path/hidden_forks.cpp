@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "path/midline.hpp"
+
 namespace flowdlo::path {
 namespace {
 
@@ -57,12 +59,6 @@ std::vector<int> turns(const Points& points, bool ring, const Cover& cover, floa
     }
   }
   return result;
-}
-
-float length_of(const Points& points) {
-  float sum = 0;
-  for (std::size_t i = 1; i < points.size(); ++i) sum += (points[i] - points[i - 1]).norm();
-  return sum;
 }
 
 int add_node(Graph& graph, const Vector2f& position) {

@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "path/region.hpp"
+
 namespace flowdlo::path {
 namespace {
 
@@ -17,12 +19,6 @@ constexpr float kTightestWidths = 1.5F;   // radius of the tightest bend
 constexpr float kMostReach = 0.8F;        // widths from the line to the mask's edge, at most
 constexpr float kStepPx = 0.5F;
 
-bool empty(const cv::Mat& mask, const Vector2f& p) {
-  const auto u = static_cast<int>(std::lround(p.x()));
-  const auto v = static_cast<int>(std::lround(p.y()));
-  return u < 0 || v < 0 || u >= mask.cols || v >= mask.rows || mask.at<std::uint8_t>(v, u) == 0;
-}
-
 Vector2f normal_at(const Points& points, int i) {
   const int count = static_cast<int>(points.size());
   const Vector2f along = points[std::min(i + 3, count - 1)] - points[std::max(i - 3, 0)];
@@ -32,11 +28,17 @@ Vector2f normal_at(const Points& points, int i) {
 
 float reach_of(const cv::Mat& mask, const Vector2f& from, const Vector2f& direction, float most) {
   float reach = 0;
-  while (reach < most && !empty(mask, from + (reach + kStepPx) * direction)) reach += kStepPx;
+  while (reach < most && lit(mask, from + (reach + kStepPx) * direction)) reach += kStepPx;
   return reach;
 }
 
 }  // namespace
+
+float length_of(const Points& points) {
+  float sum = 0;
+  for (std::size_t i = 1; i < points.size(); ++i) sum += (points[i] - points[i - 1]).norm();
+  return sum;
+}
 
 Points smoothed(Points points, int half) {
   const int count = static_cast<int>(points.size());

@@ -7,6 +7,9 @@
 
 namespace flowdlo::path {
 
+/// Length of a line, pixels.
+[[nodiscard]] float length_of(const std::vector<Eigen::Vector2f>& points);
+
 /// Two passes of a running mean over 2 `half` + 1 points, narrower towards the ends, which stay.
 [[nodiscard]] std::vector<Eigen::Vector2f> smoothed(std::vector<Eigen::Vector2f> points, int half);
 

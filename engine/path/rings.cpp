@@ -18,7 +18,6 @@ using geometry::quantile;
 using Points = std::vector<Vector2f>;
 
 constexpr int kLeastPoints = 24;
-constexpr float kMostScan = 2.2F;       // usual widths to each side
 constexpr int kUsualSamples = 64;       // of a third of the ring, which tells what is usual
 constexpr float kBesideLeast = 1.2F;    // usual widths: two ends beside each other
 constexpr float kBesideMost = 2.4F;     // are this wide in the mean
@@ -42,13 +41,8 @@ class Ring {
     const float most = kMostScan * usual_px + 2;
     for (int i = 0; i < count_; ++i) {
       const Vector2f along = points_[wrap(i + half)] - points_[wrap(i - half)];
-      const Vector2f normal =
-          along.norm() > 0 ? Vector2f(-along.y(), along.x()).normalized() : Vector2f(0, 0);
-      const float left = reach(mask, points_[i], normal, most);
-      const float right = reach(mask, points_[i], -normal, most);
-      normals_.push_back(normal);
-      middles_.push_back(points_[i] + 0.5F * (left - right) * normal);
-      widths_.push_back(left + right);
+      stations_.push_back(across(mask, points_[i], along, most));
+      widths_.push_back(stations_.back().width_px);
     }
     size_px_ = quantile(widths_, 0.5F);
     for (int i = 0; i < count_; ++i) usual_.push_back(usual_around(i));
@@ -58,8 +52,8 @@ class Ring {
   [[nodiscard]] int wrap(int i) const { return ((i % count_) + count_) % count_; }
   [[nodiscard]] float size_px() const { return size_px_; }
   [[nodiscard]] const Vector2f& point(int i) const { return points_[wrap(i)]; }
-  [[nodiscard]] const Vector2f& middle(int i) const { return middles_[wrap(i)]; }
-  [[nodiscard]] const Vector2f& normal(int i) const { return normals_[wrap(i)]; }
+  [[nodiscard]] const Vector2f& middle(int i) const { return stations_[wrap(i)].middle_px; }
+  [[nodiscard]] const Vector2f& normal(int i) const { return stations_[wrap(i)].normal; }
   [[nodiscard]] float usual_px(int i) const { return usual_[wrap(i)]; }
   // In usual widths, the median over 2 `half` + 1 points.
   [[nodiscard]] float width(int i, int half) const {
@@ -90,8 +84,7 @@ class Ring {
 
   int count_;
   Points points_;  // smoothed
-  Points normals_;
-  Points middles_;  // of the mask
+  Line stations_;
   std::vector<float> widths_;
   std::vector<float> usual_;
   float size_px_ = 1;
@@ -187,12 +180,6 @@ Points passed_twice(const Ring& ring, const Beside& ends) {
     points.push_back((leaves || arrives ? ring.middle(i) : ring.point(i)) + move * ring.normal(i));
   }
   return points;
-}
-
-float length_of(const Points& points) {
-  float sum = 0;
-  for (std::size_t i = 1; i < points.size(); ++i) sum += (points[i] - points[i - 1]).norm();
-  return sum;
 }
 
 }  // namespace

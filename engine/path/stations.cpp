@@ -18,7 +18,6 @@ using geometry::quantile;
 using Points = std::vector<Vector2f>;
 
 constexpr int kCalmSamples = 4;
-constexpr float kMostScan = 2.2F;    // usual widths to each side
 constexpr float kNearerMost = 2.5F;  // times nearer or farther than what is usual: else no rope
 constexpr float kRunWidths = 3.0F;   // a narrow part is at least this long,
 constexpr float kHalfLeast = 0.42F;  // between these shares of the usual width,
@@ -36,10 +35,9 @@ constexpr float kUsualShare = 1.5F;  // of the narrow parts' width: usual up to 
 constexpr float kSingleShare = 1.3F;    // of the narrow parts' width: one strand up to this
 constexpr float kFewestNarrow = 0.04F;  // share of the stations that are one strand
 
-// Whether the mask was cut where it ends, at `p` and `aside`.
-bool seam_at(const Region& region, const Vector2f& p, const Vector2f& aside) {
-  const Vector2f step = aside.normalized();
-  return lit(region.seams, p + aside + 0.5F * step) || lit(region.seams, p + aside + 1.2F * step);
+// Whether the mask was cut where it ends, at `edge`.
+bool seam_at(const Region& region, const Vector2f& edge, const Vector2f& outwards) {
+  return lit(region.seams, edge + 0.5F * outwards) || lit(region.seams, edge + 1.2F * outwards);
 }
 
 Line measured(const Segment& segment, const Region& region, float width_px) {
@@ -51,17 +49,10 @@ Line measured(const Segment& segment, const Region& region, float width_px) {
   Line line;
   for (int i = 0; i <= last; ++i) {
     const Vector2f along = points[std::min(i + half, last)] - points[std::max(i - half, 0)];
-    Station station{points[i]};
-    if (along.norm() > 0) {
-      station.normal = Vector2f(-along.y(), along.x()).normalized();
-      const float left = reach(mask, points[i], station.normal, most);
-      const float right = reach(mask, points[i], -station.normal, most);
-      station.middle_px += 0.5F * (left - right) * station.normal;
-      station.width_px = left + right;
-      station.seamed =
-          !region.seams.empty() && (seam_at(region, points[i], left * station.normal) ||
-                                    seam_at(region, points[i], -right * station.normal));
-    }
+    Station station = across(mask, points[i], along, most);
+    station.seamed = !region.seams.empty() && station.width_px > 0 &&
+                     (seam_at(region, station.edge(1), station.normal) ||
+                      seam_at(region, station.edge(-1), -station.normal));
     line.push_back(station);
   }
   return line;
@@ -199,6 +190,17 @@ float reach(const cv::Mat& mask, const Vector2f& p, const Vector2f& direction, f
   walked -= 1 - kScanStepPx;
   while (walked < most_px && lit(mask, p + walked * direction)) walked += kScanStepPx;
   return walked - 0.5F * kScanStepPx;
+}
+
+Station across(const cv::Mat& mask, const Vector2f& p, const Vector2f& along, float most_px) {
+  Station station{p};
+  if (along.norm() <= 0) return station;
+  station.normal = Vector2f(-along.y(), along.x()).normalized();
+  const float left = reach(mask, p, station.normal, most_px);
+  const float right = reach(mask, p, -station.normal, most_px);
+  station.middle_px += 0.5F * (left - right) * station.normal;
+  station.width_px = left + right;
+  return station;
 }
 
 Aside step_aside(const Points& before, const Points& after, const Vector2f& left) {

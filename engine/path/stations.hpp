@@ -12,6 +12,8 @@ namespace flowdlo::path {
 
 /// How finely `reach` walks.
 inline constexpr float kScanStepPx = 0.25F;
+/// And how far to each side, in usual widths, where strands may lie beside each other.
+inline constexpr float kMostScan = 2.2F;
 
 /// Across a line at one of its points.
 struct Station {
@@ -34,6 +36,11 @@ using Line = std::vector<Station>;
 /// Of the graph's segments, in their order.
 [[nodiscard]] std::vector<Line> stations_of(const Graph& graph, const Region& region,
                                             const Frame& frame);
+
+/// What lies across a line at its point `p`, where it runs `along`; no width where that is no
+/// direction. Scans at most `most_px` to each side.
+[[nodiscard]] Station across(const cv::Mat& mask, const Eigen::Vector2f& p,
+                             const Eigen::Vector2f& along, float most_px);
 
 /// The size of one strand; 0 where nothing tells it. `usual_px` is the rope's usual width.
 [[nodiscard]] float single_size(const std::vector<Line>& lines, float usual_px);

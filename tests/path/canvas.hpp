@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
 #include <opencv2/imgproc.hpp>
 #include <vector>
@@ -59,6 +60,18 @@ Curve curve_of(Function function, int count = 400) {
     curve.emplace_back(static_cast<int>(std::lround(x)), static_cast<int>(std::lround(y)));
   }
   return curve;
+}
+
+/// `curve` with points about a pixel apart, not only at its corners.
+inline Curve dense(const Curve& curve) {
+  Curve points;
+  for (std::size_t i = 1; i < curve.size(); ++i) {
+    const cv::Point step = curve[i] - curve[i - 1];
+    const int count = std::max({1, std::abs(step.x), std::abs(step.y)});
+    for (int k = 0; k < count; ++k) points.push_back(curve[i - 1] + step * k / count);
+  }
+  points.push_back(curve.back());
+  return points;
 }
 
 inline float distance_to(const std::vector<Vector2f>& points, const cv::Point& p) {

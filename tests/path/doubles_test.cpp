@@ -48,18 +48,6 @@ Curve hairpin(int width_px, bool parts, int apart_px) {
   return curve;
 }
 
-// `curve` with points about a pixel apart.
-Curve dense(const Curve& curve) {
-  Curve points;
-  for (std::size_t i = 1; i < curve.size(); ++i) {
-    const cv::Point step = curve[i] - curve[i - 1];
-    const int count = std::max({1, std::abs(step.x), std::abs(step.y)});
-    for (int k = 0; k < count; ++k) points.push_back(curve[i - 1] + step * k / count);
-  }
-  points.push_back(curve.back());
-  return points;
-}
-
 // A ring whose ends lie beside each other for `beside` radians.
 Curve overlapping_ring(int width_px, double beside) {
   return curve_of([&](double t) {

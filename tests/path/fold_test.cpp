@@ -12,17 +12,6 @@ const Curve kLeft{{110, 60}, {320, 300}};
 const Curve kStem{{320, 300}, {320, 380}};
 const Curve kRight{{320, 300}, {530, 60}};
 
-Curve dense(const Curve& corners) {
-  Curve curve;
-  for (std::size_t i = 1; i < corners.size(); ++i) {
-    const cv::Point d = corners[i] - corners[i - 1];
-    const int count = std::max({1, std::abs(d.x), std::abs(d.y)});
-    for (int k = 0; k < count; ++k) curve.push_back(corners[i - 1] + d * k / count);
-  }
-  curve.push_back(corners.back());
-  return curve;
-}
-
 TEST(Fold, HidesItsWayBackBehindTheStem) {
   const Canvas canvas =
       Canvas().stroke(kLeft, kWidthPx).stroke(kStem, kWidthPx).stroke(kRight, kWidthPx);

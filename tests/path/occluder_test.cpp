@@ -42,18 +42,6 @@ Curve arc(double from, double to) {
   });
 }
 
-// With points all along, not only at corners.
-Curve dense(const Curve& corners) {
-  Curve curve;
-  for (std::size_t i = 1; i < corners.size(); ++i) {
-    const cv::Point d = corners[i] - corners[i - 1];
-    const int count = std::max({1, std::abs(d.x), std::abs(d.y)});
-    for (int k = 0; k < count; ++k) curve.push_back(corners[i - 1] + d * k / count);
-  }
-  curve.push_back(corners.back());
-  return curve;
-}
-
 // Of the curve's points from the path; how far the rope's round tips reach beyond does not count.
 float farthest_off(const path::Path& path, const Curve& curve) {
   float most = 0;
