@@ -3,17 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 namespace flowdlo::gate {
 namespace {
 
 constexpr double kUnopposed = 99;
-
-template <std::size_t Size>
-double dot(const std::array<double, Size>& a, const std::array<double, Size>& b) {
-  return std::inner_product(a.begin(), a.end(), b.begin(), 0.0);
-}
 
 }  // namespace
 

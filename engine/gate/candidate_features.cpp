@@ -18,10 +18,6 @@ constexpr double kClear = 3;       // score that settles it
 constexpr double kCentimetre = 0.01;
 constexpr double kMillimetre = 0.001;
 
-double missing(float share, double most) {
-  return std::clamp((1 - static_cast<double>(share)) / most, 0.0, 1.0);
-}
-
 double some(double value, double most) { return std::clamp(value / most, 0.0, 1.0); }
 
 /// By how much `after` exceeds `before`, in [-1, 1].
@@ -51,18 +47,12 @@ double largest(const std::array<float, kNodes>& values) {
   return static_cast<double>(*std::max_element(values.begin(), values.end()));
 }
 
-double distance_m(const Point3& a, const Point3& b) {
-  return std::hypot(static_cast<double>(a.x) - static_cast<double>(b.x),
-                    static_cast<double>(a.y) - static_cast<double>(b.y),
-                    static_cast<double>(a.z) - static_cast<double>(b.z));
-}
-
 double mean_distance_m(const Centerline& a, const Centerline& b) {
   double forward = 0;
   double backward = 0;
   for (std::size_t i = 0; i < kNodes; ++i) {
-    forward += distance_m(a[i], b[i]) / kNodes;
-    backward += distance_m(a[i], b[kNodes - 1 - i]) / kNodes;
+    forward += geometry::distance(a[i], b[i]) / kNodes;
+    backward += geometry::distance(a[i], b[kNodes - 1 - i]) / kNodes;
   }
   return std::min(forward, backward);
 }

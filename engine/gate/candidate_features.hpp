@@ -2,6 +2,7 @@
 // of estimator::list_candidates: the prior of each hypothesis, best first, then the draws.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <span>
@@ -9,6 +10,11 @@
 #include "gate/candidate.hpp"
 
 namespace flowdlo::gate {
+
+/// In [0, 1]: how much of a share is missing; `most` of it counts as all.
+[[nodiscard]] inline double missing(float share, double most) {
+  return std::clamp((1 - static_cast<double>(share)) / most, 0.0, 1.0);
+}
 
 /// [kDrawFeatures] each in [-1, 1], the first is one: whether to prefer a draw to the prior that it
 /// was conditioned on.

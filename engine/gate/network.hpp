@@ -4,8 +4,14 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <numeric>
 
 namespace flowdlo::gate {
+
+template <std::size_t Size>
+[[nodiscard]] double dot(const std::array<double, Size>& a, const std::array<double, Size>& b) {
+  return std::inner_product(a.begin(), a.end(), b.begin(), 0.0);
+}
 
 inline constexpr std::size_t kHidden = 8;
 
@@ -25,15 +31,6 @@ struct Network {
     std::array<double, Outputs> out{};
     for (std::size_t k = 0; k < Outputs; ++k) out[k] = dot(straight[k], x) + dot(bent[k], bends);
     return out;
-  }
-
- private:
-  template <std::size_t Size>
-  [[nodiscard]] static double dot(const std::array<double, Size>& a,
-                                  const std::array<double, Size>& b) {
-    double sum = 0;
-    for (std::size_t i = 0; i < Size; ++i) sum += a[i] * b[i];
-    return sum;
   }
 };
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "gate/candidate_features.hpp"
 #include "geometry/polyline.hpp"
 
 namespace flowdlo::gate {
@@ -24,24 +25,14 @@ double log_m(double length_m, double least_m) {
   return std::log(std::clamp(length_m, least_m, kMost_m) / kUnit_m);
 }
 
-double missing(float share, double most) {
-  return std::clamp((1 - static_cast<double>(share)) / most, 0.0, 1.0);
-}
-
-double distance_m(const Point3& a, const Point3& b) {
-  return std::hypot(static_cast<double>(a.x) - static_cast<double>(b.x),
-                    static_cast<double>(a.y) - static_cast<double>(b.y),
-                    static_cast<double>(a.z) - static_cast<double>(b.z));
-}
-
 /// [64] between nodes of the same index, `b` turned the way that brings it nearer as a whole.
 std::array<double, kNodes> distances_m(const Centerline& a, const Centerline& b) {
   std::array<double, kNodes> forward{};
   std::array<double, kNodes> backward{};
   double balance = 0;
   for (std::size_t i = 0; i < kNodes; ++i) {
-    forward[i] = distance_m(a[i], b[i]);
-    backward[i] = distance_m(a[i], b[kNodes - 1 - i]);
+    forward[i] = geometry::distance(a[i], b[i]);
+    backward[i] = geometry::distance(a[i], b[kNodes - 1 - i]);
     balance += forward[i] - backward[i];
   }
   return balance <= 0 ? forward : backward;

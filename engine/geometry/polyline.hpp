@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <cmath>
 #include <span>
 #include <vector>
 
@@ -26,6 +27,13 @@ namespace flowdlo::geometry {
 
 /// L(X), metres. Eq. (3.30).
 [[nodiscard]] float length(const Centerline& nodes);
+
+/// Between two points, in double.
+[[nodiscard]] inline double distance(const Point3& a, const Point3& b) {
+  return std::hypot(static_cast<double>(a.x) - static_cast<double>(b.x),
+                    static_cast<double>(a.y) - static_cast<double>(b.y),
+                    static_cast<double>(a.z) - static_cast<double>(b.z));
+}
 
 /// True when every coordinate is finite.
 [[nodiscard]] bool all_finite(const Centerline& nodes);

@@ -7,16 +7,14 @@
 #include <cstdlib>
 #include <tuple>
 
+#include "geometry/polyline.hpp"
+
 namespace flowdlo::eval {
 namespace {
 
-constexpr double kStrandShare = 0.1;  // of the length, along the rope
+using geometry::distance;
 
-double distance(const Point3& a, const Point3& b) {
-  return std::hypot(static_cast<double>(a.x) - static_cast<double>(b.x),
-                    static_cast<double>(a.y) - static_cast<double>(b.y),
-                    static_cast<double>(a.z) - static_cast<double>(b.z));
-}
+constexpr double kStrandShare = 0.1;  // of the length, along the rope
 
 }  // namespace
 

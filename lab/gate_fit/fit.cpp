@@ -9,6 +9,7 @@
 #include "gate_fit/calibration.hpp"
 #include "gate_fit/folds.hpp"
 #include "gate_fit/policy.hpp"
+#include "geometry/polyline.hpp"
 
 namespace flowdlo::lab {
 namespace {
@@ -28,11 +29,6 @@ std::array<double, Size> as_array(const std::vector<double>& values) {
   std::array<double, Size> result{};
   std::copy_n(values.begin(), Size, result.begin());
   return result;
-}
-
-template <std::size_t Size>
-double dot(const std::array<double, Size>& a, const std::array<double, Size>& b) {
-  return std::inner_product(a.begin(), a.end(), b.begin(), 0.0);
 }
 
 template <std::size_t Size>
@@ -141,7 +137,7 @@ void Fitting::choose_draws() {
         if (candidates[i].draw < 0) continue;
         const auto prior = static_cast<std::size_t>(candidates[i].hypothesis);
         changes.push_back(
-            {dot(gate::draw_features(candidates, i), draw), costs[s][i] - costs[s][prior]});
+            {gate::dot(gate::draw_features(candidates, i), draw), costs[s][i] - costs[s][prior]});
       }
     }
   });
@@ -184,11 +180,7 @@ std::array<double, kNodes> node_errors_m(const Centerline& nodes, const Centerli
   const Centerline fitting = eval::turned(truth, eval::score(nodes, truth));
   std::array<double, kNodes> result{};
   for (std::size_t i = 0; i < kNodes; ++i) {
-    const Point3& a = nodes[i];
-    const Point3& b = fitting[i];
-    result[i] = std::hypot(static_cast<double>(a.x) - static_cast<double>(b.x),
-                           static_cast<double>(a.y) - static_cast<double>(b.y),
-                           static_cast<double>(a.z) - static_cast<double>(b.z));
+    result[i] = geometry::distance(nodes[i], fitting[i]);
   }
   return result;
 }
