@@ -12,6 +12,7 @@
 #include <memory>
 #include <string>
 
+#include "device_option.hpp"
 #include "ops/program.hpp"
 #include "random/philox.hpp"
 #include "reference/program.hpp"
@@ -218,12 +219,7 @@ void register_all(const std::shared_ptr<vulkan::Device>& device) {
 }  // namespace flowdlo
 
 int main(int argc, char** argv) {
-  std::string wanted = "vulkan";
-  const std::string option = "--device=";
-  for (int i = 1; i < argc; ++i) {
-    const std::string argument = argv[i];
-    if (argument.rfind(option, 0) == 0) wanted = argument.substr(option.size());
-  }
+  const std::string wanted = flowdlo::bench::wanted_device(argc, argv);
   benchmark::Initialize(&argc, argv);
   const auto device = flowdlo::vulkan::open_device({.wanted = wanted});
   if (!device) {

@@ -9,6 +9,7 @@
 #include <fstream>
 #include <string>
 
+#include "device_option.hpp"
 #include "ops/program.hpp"
 #include "vulkan/backend.hpp"
 
@@ -61,11 +62,5 @@ int measure(const std::string& wanted) {
 }  // namespace flowdlo
 
 int main(int argc, char** argv) {
-  std::string wanted = "vulkan";
-  const std::string option = "--device=";
-  for (int i = 1; i < argc; ++i) {
-    const std::string argument = argv[i];
-    if (argument.rfind(option, 0) == 0) wanted = argument.substr(option.size());
-  }
-  return flowdlo::measure(wanted);
+  return flowdlo::measure(flowdlo::bench::wanted_device(argc, argv));
 }

@@ -32,7 +32,17 @@ struct GemmCall {
   [[nodiscard]] std::array<Binding, 5> bindings() const { return {x, weight, bias, residual, y}; }
 };
 
-struct TileGemmCall {
+/// Of the kernels for GPUs: a row's floats lie side by side.
+struct TileOperands {
+  Reads x;
+  Reads weight;
+  Reads bias;
+  Reads residual;
+  Writes y;
+  [[nodiscard]] std::array<Binding, 5> bindings() const { return {x, weight, bias, residual, y}; }
+};
+
+struct TileGemmCall : TileOperands {
   struct Constants {
     int threads;
     int tile_rows;
@@ -46,16 +56,9 @@ struct TileGemmCall {
   using Push = TileGemmPush;
   static constexpr bool kUsesSubgroups = false;
   static ShaderCode shader() { return shaders::tile_gemm(); }
-
-  Reads x;
-  Reads weight;
-  Reads bias;
-  Reads residual;
-  Writes y;
-  [[nodiscard]] std::array<Binding, 5> bindings() const { return {x, weight, bias, residual, y}; }
 };
 
-struct MatrixGemmCall {
+struct MatrixGemmCall : TileOperands {
   struct Constants {
     int threads;
     int tile_rows;
@@ -69,13 +72,6 @@ struct MatrixGemmCall {
   using Push = TileGemmPush;
   static constexpr bool kUsesSubgroups = true;
   static ShaderCode shader() { return shaders::matrix_gemm(); }
-
-  Reads x;
-  Reads weight;
-  Reads bias;
-  Reads residual;
-  Writes y;
-  [[nodiscard]] std::array<Binding, 5> bindings() const { return {x, weight, bias, residual, y}; }
 };
 
 struct NarrowCall {

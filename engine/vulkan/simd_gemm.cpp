@@ -4,6 +4,7 @@
 #include "vulkan/recorders.hpp"
 
 namespace flowdlo::vulkan {
+
 /// Rows and columns in windows that texel buffers can hold.
 void record_simd_gemm(Plan& plan, const ops::Linear& op, const DenseLayer& layer) {
   const GemmChoice& tile = plan.gemm();

@@ -11,6 +11,7 @@
 #include <map>
 #include <set>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -193,11 +194,11 @@ class Walker {
     }
     for (std::size_t at = 0; at < chunk.size();) {
       const std::size_t begin = at;
-      std::string header;
-      std::string data;
+      std::string_view header;
+      std::string_view data;
       Fields fields;
       std::uint8_t op = 0;
-      if (!read_part(chunk, at, header) || !parse_fields(header, fields) ||
+      if (!read_part(chunk, at, header) || !parse_fields(std::string(header), fields) ||
           !read_field(fields, "op", op) || !read_part(chunk, at, data)) {
         return fmt::format("the chunk at byte {} holds a damaged record", record.begin);
       }
@@ -207,12 +208,12 @@ class Walker {
   }
 
   // Bytes behind their length; `at` moves on. False when they run over the end.
-  static bool read_part(const std::string& bytes, std::size_t& at, std::string& part) {
+  static bool read_part(const std::string& bytes, std::size_t& at, std::string_view& part) {
     std::uint32_t length = 0;
     if (!read_number(bytes, at, length)) return false;
     at += sizeof(length);
     if (length > bytes.size() - at) return false;
-    part = bytes.substr(at, length);
+    part = std::string_view(bytes).substr(at, length);
     at += length;
     return true;
   }
