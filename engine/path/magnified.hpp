@@ -1,13 +1,13 @@
 // Magnified: a part of a frame at a whole multiple of its size, for ropes a few pixels wide.
 #pragma once
 
-#include <cstdint>
 #include <opencv2/core.hpp>
 #include <vector>
 
 #include "flowdlo/frame.hpp"
 #include "path/path.hpp"
 #include "path/region.hpp"
+#include "path/window.hpp"
 
 namespace flowdlo::path {
 
@@ -30,14 +30,12 @@ class Magnified {
   void shrink(Traversals& traversals) const;
 
  private:
-  cv::Rect part_;  // of the original
+  Window window_;
+  cv::Size original_;
+  Intrinsics camera_;
   Region region_;
-  int times_ = 1;
-  Intrinsics intrinsics_;
-  int original_width_ = 0;
-  int original_height_ = 0;
-  std::vector<float> depth_m_;
-  std::vector<std::uint8_t> mask_;
+  cv::Mat depth_m_;
+  cv::Mat mask_;
 };
 
 }  // namespace flowdlo::path

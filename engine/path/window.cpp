@@ -1,0 +1,99 @@
+#include "path/window.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+
+namespace flowdlo::path {
+namespace {
+
+using Eigen::Vector2f;
+
+const Vector2f kHalf{0.5F, 0.5F};
+
+// Samples about a pixel apart of those that lie `pace` pixels apart; where a link begins or ends
+// between two of them, the new one belongs to it.
+Path respaced(const Path& path, float pace) {
+  Path result = path;
+  result.points_px.clear();
+  result.bridged.clear();
+  const auto add = [&](const Vector2f& p, std::uint8_t bridged) {
+    if (!result.points_px.empty() && result.points_px.back() == p) return;
+    result.points_px.push_back(p);
+    result.bridged.push_back(bridged);
+  };
+  const std::size_t count = path.points_px.size();
+  const auto every = static_cast<std::size_t>(std::max(1.0F, std::round(1 / pace)));
+  const int pieces = std::max(1, static_cast<int>(std::lround(pace)));
+  for (std::size_t i = 0; i < count; ++i) {
+    const bool end = i == 0 || i + 1 == count;
+    if (!end && i % every != 0) continue;
+    for (int k = 1; i > 0 && k < pieces; ++k) {
+      const float t = static_cast<float>(k) / static_cast<float>(pieces);
+      add((1 - t) * path.points_px[i - 1] + t * path.points_px[i],
+          std::max(path.bridged[i - 1], path.bridged[i]));
+    }
+    add(path.points_px[i], path.bridged[i]);
+  }
+  return result;
+}
+
+template <class Pixel>
+cv::Mat copied(std::span<const Pixel> pixels, int width, const cv::Rect& part, int type) {
+  cv::Mat copy(part.size(), type);
+  for (int v = 0; v < part.height; ++v) {
+    const auto row = static_cast<std::size_t>(part.y + v) * static_cast<std::size_t>(width);
+    const auto first = pixels.subspan(row + static_cast<std::size_t>(part.x),
+                                      static_cast<std::size_t>(part.width));
+    std::copy(first.begin(), first.end(), copy.ptr<Pixel>(v));
+  }
+  return copy;
+}
+
+}  // namespace
+
+Intrinsics Window::camera(const Intrinsics& frame) const {
+  const auto moved = [this](float centre, int first) {
+    return (centre - static_cast<float>(first) + 0.5F) * scale - 0.5F;
+  };
+  return {frame.fx * scale, frame.fy * scale, moved(frame.cx, part.x), moved(frame.cy, part.y)};
+}
+
+void Window::restore(Traversals& traversals, const cv::Size& frame) const {
+  const Vector2f first{static_cast<float>(part.x), static_cast<float>(part.y)};
+  const Vector2f last{static_cast<float>(frame.width - 1), static_cast<float>(frame.height - 1)};
+  traversals.rope_width_px /= scale;
+  for (Path& path : traversals.ranked) {
+    path.width_px /= scale;
+    for (Vector2f& p : path.points_px) {
+      p = ((p + kHalf) / scale - kHalf + first).cwiseMax(Vector2f::Zero()).cwiseMin(last);
+    }
+    path = respaced(path, 1 / scale);
+  }
+}
+
+cv::Mat mask_in(const Frame& frame, const cv::Rect& part) {
+  return copied(frame.mask, frame.width, part, CV_8U);
+}
+
+cv::Mat depth_in(const Frame& frame, const cv::Rect& part) {
+  return copied(frame.depth_m, frame.width, part, CV_32F);
+}
+
+Frame frame_of(const cv::Mat& mask, const cv::Mat& depth_m, const Intrinsics& camera) {
+  return {mask.cols,
+          mask.rows,
+          camera,
+          {depth_m.ptr<float>(), depth_m.total()},
+          {mask.ptr<std::uint8_t>(), mask.total()},
+          {}};
+}
+
+cv::Rect widened(const cv::Rect& box, int around_px, const cv::Size& frame) {
+  return cv::Rect(box.x - around_px, box.y - around_px, box.width + 2 * around_px,
+                  box.height + 2 * around_px) &
+         cv::Rect({0, 0}, frame);
+}
+
+}  // namespace flowdlo::path
