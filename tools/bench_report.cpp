@@ -20,9 +20,10 @@ struct Stage {
   double Timings::*time_ms;
 };
 
-constexpr std::array<Stage, 6> kStages = {{{"path", &Timings::path_ms},
+constexpr std::array<Stage, 7> kStages = {{{"path", &Timings::path_ms},
                                            {"evidence", &Timings::evidence_ms},
                                            {"prior", &Timings::prior_ms},
+                                           {"readings", &Timings::readings_ms},
                                            {"mask_field", &Timings::mask_field_ms},
                                            {"model", &Timings::model_ms},
                                            {"gate", &Timings::gate_ms}}};

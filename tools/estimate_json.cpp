@@ -74,9 +74,13 @@ Json alternatives_json(const std::vector<Alternative>& alternatives) {
 }
 
 Json timings_json(const Timings& timings) {
-  return {{"evidence", number(timings.evidence_ms)}, {"path", number(timings.path_ms)},
-          {"prior", number(timings.prior_ms)},       {"mask_field", number(timings.mask_field_ms)},
-          {"model", number(timings.model_ms)},       {"gate", number(timings.gate_ms)},
+  return {{"evidence", number(timings.evidence_ms)},
+          {"path", number(timings.path_ms)},
+          {"prior", number(timings.prior_ms)},
+          {"readings", number(timings.readings_ms)},
+          {"mask_field", number(timings.mask_field_ms)},
+          {"model", number(timings.model_ms)},
+          {"gate", number(timings.gate_ms)},
           {"total", number(timings.total_ms)}};
 }
 

@@ -41,6 +41,9 @@ gate::Candidate prior_candidate(const Hypothesis& hypothesis, int index, double 
   candidate.sigma_m = hypothesis.prior.sigma_m;
   candidate.hypothesis = index;
   candidate.behind = best - hypothesis.score;
+  candidate.reread = hypothesis.reading > 0;
+  candidate.votes = hypothesis.votes;
+  candidate.odds = hypothesis.odds;
   const auto& support = hypothesis.prior.support;
   candidate.supported =
       static_cast<float>(std::count(support.begin(), support.end(), std::uint8_t{1})) / kNodes;
@@ -55,13 +58,13 @@ gate::Candidate prior_candidate(const Hypothesis& hypothesis, int index, double 
 
 }  // namespace
 
-std::vector<gate::Candidate> list_candidates(const Conditions& conditions,
+std::vector<gate::Candidate> list_candidates(const SecondLook& look, float rope_width_px,
                                              const flow::Prediction& prediction,
                                              const std::vector<DrawReport>& reports,
                                              const std::vector<int>& assigned, const Frame& frame,
                                              double rope_length_m) {
-  const auto& hypotheses = conditions.hypotheses;
-  gate::TubeView view(frame, conditions.paths.rope_width_px);
+  const auto& hypotheses = look.hypotheses;
+  gate::TubeView view(frame, rope_width_px);
   std::vector<gate::Candidate> candidates;
   const auto measure = [&](gate::Candidate& candidate) {
     candidate.tube = view.score(candidate.nodes, candidate.radius_m);
@@ -75,6 +78,7 @@ std::vector<gate::Candidate> list_candidates(const Conditions& conditions,
   for (std::size_t h = 0; h < hypotheses.size(); ++h) {
     auto candidate = prior_candidate(hypotheses[h], static_cast<int>(h), hypotheses.front().score);
     candidate.radius_m = view.radius_m(candidate.nodes);
+    candidate.readings = look.readings;
     measure(candidate);
   }
   for (std::size_t d = 0; d < prediction.draws.size(); ++d) {

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "estimator/conditions.hpp"
+#include "estimator/second_look.hpp"
 #include "flow/sampler.hpp"
 #include "flowdlo/frame.hpp"
 #include "gate/candidate.hpp"
@@ -13,11 +13,9 @@ namespace flowdlo::estimator {
 /// First the prior of each hypothesis, then each draw that is plausible, Eq. (3.31) and (3.32), by
 /// its report. `assigned` is [D], the hypothesis that each draw was conditioned on; `rope_length_m`
 /// 0: unknown.
-[[nodiscard]] std::vector<gate::Candidate> list_candidates(const Conditions& conditions,
-                                                           const flow::Prediction& prediction,
-                                                           const std::vector<DrawReport>& reports,
-                                                           const std::vector<int>& assigned,
-                                                           const Frame& frame,
-                                                           double rope_length_m);
+[[nodiscard]] std::vector<gate::Candidate> list_candidates(
+    const SecondLook& look, float rope_width_px, const flow::Prediction& prediction,
+    const std::vector<DrawReport>& reports, const std::vector<int>& assigned, const Frame& frame,
+    double rope_length_m);
 
 }  // namespace flowdlo::estimator

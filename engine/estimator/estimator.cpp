@@ -16,6 +16,7 @@
 #include "estimator/confidence.hpp"
 #include "estimator/config_check.hpp"
 #include "estimator/device_choice.hpp"
+#include "estimator/second_look.hpp"
 #include "estimator/stopwatch.hpp"
 #include "estimator/tensors.hpp"
 #include "estimator/weights_location.hpp"
@@ -164,6 +165,8 @@ struct FLOWDLO_HIDDEN Estimator::Impl {
   Result<flow::Prediction> sample(const flow::SampleInput& input);
   [[nodiscard]] weights::PriorKind prior_kind() const;
   [[nodiscard]] bool calibrated() const;
+  [[nodiscard]] std::future<estimator::SecondLook> look_again(
+      const estimator::Conditions& conditions, const Frame& frame, double& readings_ms) const;
   [[nodiscard]] std::vector<int> assign(const std::vector<estimator::Hypothesis>& hypotheses) const;
 };
 
@@ -235,6 +238,21 @@ std::vector<int> Estimator::Impl::assign(
   return estimator::assign_draws(count, margin, config.draws);
 }
 
+/// Beside the model, where there is more than one thread; the frame as it was read for the thesis'
+/// gate, which knows no doubt.
+std::future<estimator::SecondLook> Estimator::Impl::look_again(
+    const estimator::Conditions& conditions, const Frame& frame, double& readings_ms) const {
+  const auto policy = config.threads == 1 ? std::launch::deferred : std::launch::async;
+  return std::async(policy, [&, calibrated = calibrated()] {
+    if (!calibrated) return estimator::SecondLook{1, conditions.hypotheses};
+    estimator::Stopwatch watch;
+    auto look = estimator::look_again(conditions, frame, config.rope_length_m, prior_kind(),
+                                      config.threads);
+    watch.lap(readings_ms);
+    return look;
+  });
+}
+
 Result<Estimate> Estimator::Impl::estimate(const Frame& frame, Tensors* tensors) {
   if (auto valid = validate(frame); !valid) return valid.error();
   Timings timings;
@@ -242,9 +260,10 @@ Result<Estimate> Estimator::Impl::estimate(const Frame& frame, Tensors* tensors)
   const auto conditions =
       estimator::gather(frame, config.rope_length_m, prior_kind(), timings);  // Sec. 3.2, 3.3
   if (!conditions) return conditions.error();
-  const auto& hypotheses = conditions->hypotheses;
+  auto looking = look_again(*conditions, frame, timings.readings_ms);
 
   estimator::Stopwatch stage;
+  const auto& hypotheses = conditions->hypotheses;
   const auto assigned = assign(hypotheses);
   std::vector<prior::Prior> draw_priors;
   std::vector<Centerline> draw_prior_nodes;
@@ -262,15 +281,19 @@ Result<Estimate> Estimator::Impl::estimate(const Frame& frame, Tensors* tensors)
   if (!prediction) return prediction.error();
   timings.device_ms = sampler.stage_times_ms();
   stage.lap(timings.model_ms);
+  const estimator::SecondLook look = looking.get();
 
   const gate::DilatedMask mask(frame);
   auto verdict = gate::choose(prediction->draws, draw_prior_nodes, hypotheses.front().prior.nodes,
                               mask, frame.intrinsics);  // Eq. (3.30)-(3.33)
   const Returned returned =
-      calibrated() ? by_score(estimator::list_candidates(*conditions, *prediction, verdict.draws,
-                                                         assigned, frame, config.rope_length_m))
+      calibrated() ? by_score(estimator::list_candidates(look, conditions->paths.rope_width_px,
+                                                         *prediction, verdict.draws, assigned,
+                                                         frame, config.rope_length_m))
                    : by_thesis(hypotheses, *prediction, verdict, assigned);
-  Estimate estimate = conclude(returned, hypotheses, *prediction, std::move(verdict), mask, frame);
+  Estimate estimate =
+      conclude(returned, look.hypotheses, *prediction, std::move(verdict), mask, frame);
+  estimate.readings = look.readings;
   estimate.calibrated = calibrated();
   stage.lap(timings.gate_ms);
   total.lap(timings.total_ms);

@@ -18,10 +18,13 @@ namespace flowdlo::estimator {
 /// A traversal, its prior, and how well it explains the frame.
 struct Hypothesis {
   prior::Prior prior;     ///< of the kind asked for
-  std::size_t path = 0;   ///< index in path::Traversals::ranked
+  std::size_t path = 0;   ///< index in path::Traversals::ranked of its reading
   double path_score = 0;  ///< path::Path::score
   double score = 0;       ///< after comparing with mask and depth, `rescored`
   Evidence evidence;      ///< of the refined prior, whatever kind `prior` is
+  int reading = 0;        ///< of the mask that brought it forth; 0: as given
+  float votes = 0;        ///< [0, 1] share of the readings whose best runs here
+  float odds = 0;         ///< [0, 1] mean over the readings of how likely each says it is
 };
 
 /// Best `score` first, ties in the order of `paths`; never empty. Fails as the lift of the best

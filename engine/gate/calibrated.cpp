@@ -32,7 +32,7 @@ std::vector<std::size_t> returned_by(std::span<const Candidate> candidates,
 
 double hypothesis_score(std::span<const Candidate> candidates, std::size_t index,
                         const GateWeights& weights) {
-  const double score = dot(hypothesis_features(candidates, index), weights.hypothesis);
+  const double score = weights.hypothesis(hypothesis_features(candidates, index)).front();
   return std::isfinite(score) ? score : std::numeric_limits<double>::lowest();
 }
 

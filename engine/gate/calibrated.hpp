@@ -22,8 +22,8 @@ inline constexpr double kCloseError_m = 0.01;
 /// What flowdlo_gate_fit fits. Every model has its own.
 struct GateWeights {
   std::array<double, kDrawFeatures> draw{};
-  double draw_margin = 0;  ///< score above which a draw replaces its prior
-  std::array<double, kHypothesisFeatures> hypothesis{};
+  double draw_margin = 0;                      ///< score above which a draw replaces its prior
+  Network<kHypothesisFeatures, 1> hypothesis;  ///< score of what a hypothesis would return
   double hypothesis_margin = 0;  ///< score by which a runner-up has to beat the best hypothesis
   Network<kClosenessFeatures, 1> closeness;  ///< log odds that the winner is close
   Network<kNodeFeatures, NodeError::kNumbers> node_error;

@@ -19,7 +19,11 @@ struct Candidate {
   float noise_m = 0;                     ///< standard deviation of the depths on the mask
   std::array<float, kNodes> unseen_m{};  ///< along the rope to the nearest node with support
   TubeScore tube;       ///< how it looks beside mask and depth; the worst where it cannot be drawn
-  double behind = 0;    ///< path score by which its traversal trails the best; at least 0
+  double behind = 0;    ///< score by which its traversal trails the best of the mask as given
+  int readings = 1;     ///< of the mask, that of the mask as given among them
+  bool reread = false;  ///< only another reading than that of the mask as given led here
+  float votes = 1;      ///< [0, 1] share of the readings whose best traversal runs here
+  float odds = 1;       ///< [0, 1] mean over the readings of how likely each says it is
   float supported = 0;  ///< [0, 1] share of nodes with support
   float bridged = 0;    ///< [0, 1] share of its traversal on links over gaps
   float longest_gap = 0;  ///< of its traversal, rope widths

@@ -47,14 +47,8 @@ double largest(const std::array<float, kNodes>& values) {
   return static_cast<double>(*std::max_element(values.begin(), values.end()));
 }
 
-double mean_distance_m(const Centerline& a, const Centerline& b) {
-  double forward = 0;
-  double backward = 0;
-  for (std::size_t i = 0; i < kNodes; ++i) {
-    forward += geometry::distance(a[i], b[i]) / kNodes;
-    backward += geometry::distance(a[i], b[kNodes - 1 - i]) / kNodes;
-  }
-  return std::min(forward, backward);
+double length_m(const Candidate& candidate) {
+  return static_cast<double>(geometry::length(candidate.nodes));
 }
 
 /// Half for the prior of every other hypothesis that ends up at the same place.
@@ -77,6 +71,32 @@ struct Row {
     values[count++] = value;
   }
 };
+
+/// What the readings of the mask say of it.
+template <std::size_t Size>
+void add_readings(const Candidate& candidate, Row<Size>& row) {
+  row.add(candidate.readings > 1 ? 1 : 0);
+  row.add(candidate.reread ? 1 : 0);
+  row.add(static_cast<double>(candidate.votes));
+  row.add(static_cast<double>(candidate.odds));
+}
+
+/// By how much it looks better, or only different, than another.
+template <std::size_t Size>
+void add_gains(const Candidate& before, const Candidate& after, Row<Size>& row) {
+  row.add(gained(before.tube.mask_recall, after.tube.mask_recall, 0.02));
+  row.add(gained(before.tube.mask_recall, after.tube.mask_recall, 0.2));
+  row.add(gained(before.tube.mask_precision, after.tube.mask_precision, 0.02));
+  row.add(gained(before.tube.mask_precision, after.tube.mask_precision, 0.2));
+  row.add(gained(before.tube.depth_agreement, after.tube.depth_agreement, 0.05));
+  row.add(gained(before.tube.depth_agreement, after.tube.depth_agreement, 0.5));
+  row.add(gained(before.tube.crossing_agreement, after.tube.crossing_agreement, 0.3));
+  row.add(gained(after.tube.bending, before.tube.bending, 2));
+  row.add(gained(after.tube.overlap_share, before.tube.overlap_share, 0.3));
+  row.add(gained(after.longest_gap, before.longest_gap, kMostGap));
+  row.add(log_ratio(length_m(after), length_m(before), 0.5));
+  row.add(std::abs(log_ratio(length_m(after), length_m(before), 0.5)));
+}
 
 /// What mask, depth and path say of one candidate.
 template <std::size_t Size>
@@ -106,14 +126,11 @@ void add_looks(const Candidate& candidate, Row<Size>& row) {
   row.add(some(static_cast<double>(candidate.length_off), 0.5));
 }
 
-double length_m(const Candidate& candidate) {
-  return static_cast<double>(geometry::length(candidate.nodes));
-}
-
 }  // namespace
 
 bool runs_elsewhere(const Candidate& a, const Candidate& b) {
-  return !(mean_distance_m(a.nodes, b.nodes) <= 2 * kApart * static_cast<double>(a.radius_m));
+  return !(geometry::mean_distance(a.nodes, b.nodes) <=
+           2 * kApart * static_cast<double>(a.radius_m));
 }
 
 std::array<double, kDrawFeatures> draw_features(std::span<const Candidate> candidates,
@@ -121,7 +138,7 @@ std::array<double, kDrawFeatures> draw_features(std::span<const Candidate> candi
   const Candidate& draw = candidates[index];
   const Candidate& prior = candidates[static_cast<std::size_t>(draw.hypothesis)];
   const auto radius_m = static_cast<double>(draw.radius_m);
-  const double moved_m = mean_distance_m(draw.nodes, prior.nodes);
+  const double moved_m = geometry::mean_distance(draw.nodes, prior.nodes);
   Row<kDrawFeatures> row;
   row.add(1);
   row.add(radii(moved_m, radius_m));
@@ -157,9 +174,12 @@ std::array<double, kHypothesisFeatures> hypothesis_features(std::span<const Cand
   const Candidate& candidate = candidates[index];
   const Candidate& prior = candidates[static_cast<std::size_t>(candidate.hypothesis)];
   Row<kHypothesisFeatures> row;
-  row.add(some(candidate.behind, kMostBehind));
-  row.add(some(candidate.behind, kNear));
+  row.add(1);
+  row.add(std::clamp(candidate.behind / kMostBehind, -1.0, 1.0));
+  row.add(std::clamp(candidate.behind / kNear, -1.0, 1.0));
+  add_readings(candidate, row);
   row.add(agreed(candidates, candidate));
+  add_gains(candidates.front(), candidate, row);
   add_looks(candidate, row);
   row.add(radii(mean(prior.sigma_m), static_cast<double>(candidate.radius_m)));
   return row.values;
@@ -178,6 +198,7 @@ std::array<double, kClosenessFeatures> closeness_features(std::span<const Candid
   row.add(some(lead, kClear / 6));
   row.add(agreed(candidates, candidate));
   row.add(some(candidate.behind, kMostBehind));
+  add_readings(candidate, row);
   add_looks(candidate, row);
   row.add(radii(mean(prior.sigma_m), radius_m));
   row.add(log_ratio(mean(prior.sigma_m), kCentimetre, 4));

@@ -71,6 +71,16 @@ float length(const Centerline& nodes) {
   return static_cast<float>(std::accumulate(lengths.begin(), lengths.end(), 0.0));  // Eq. (3.30)
 }
 
+double mean_distance(const Centerline& a, const Centerline& b) {
+  double forward = 0;
+  double backward = 0;
+  for (std::size_t i = 0; i < kNodes; ++i) {
+    forward += distance(a[i], b[i]) / kNodes;
+    backward += distance(a[i], b[kNodes - 1 - i]) / kNodes;
+  }
+  return std::min(forward, backward);
+}
+
 bool all_finite(const Centerline& nodes) {
   return std::all_of(nodes.begin(), nodes.end(), [](const Point3& node) {
     return std::isfinite(node.x) && std::isfinite(node.y) && std::isfinite(node.z);

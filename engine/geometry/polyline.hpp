@@ -35,6 +35,10 @@ namespace flowdlo::geometry {
                     static_cast<double>(a.z) - static_cast<double>(b.z));
 }
 
+/// Mean distance of nodes of the same index, metres, whichever end of `b` comes first; not finite
+/// where a node is not.
+[[nodiscard]] double mean_distance(const Centerline& a, const Centerline& b);
+
 /// True when every coordinate is finite.
 [[nodiscard]] bool all_finite(const Centerline& nodes);
 

@@ -35,6 +35,7 @@ struct Timings {
   double evidence_ms = 0;    ///< Sec. 3.2
   double path_ms = 0;        ///< Sec. 3.3, mask to ordered path
   double prior_ms = 0;       ///< Eq. (3.1)-(3.7), and comparing the traversals with the frame
+  double readings_ms = 0;    ///< further readings of the mask; beside model_ms where threads allow
   double mask_field_ms = 0;  ///< the field that the local features of Eq. (3.15) read
   double model_ms = 0;       ///< Eq. (3.26)-(3.28), upload and read-back included
   double gate_ms = 0;        ///< Eq. (3.30)-(3.33)
@@ -49,6 +50,7 @@ struct Estimate {
   /// [64] metres. Calibrated gate: 68 % of nodes are nearer to the truth than this and 95 % nearer
   /// than twice this, doubt about the traversal included. Thesis gate: not calibrated.
   std::array<float, kNodes> sigma_m{};
+  int readings = 1;                ///< of the mask; more than one where the first leaves doubt
   Source source = Source::kPrior;  ///< which branch of Eq. (3.33)
   int draw = -1;                   ///< index of the returned draw; -1: the prior
   bool calibrated = false;         ///< the calibrated gate decided, not that of the thesis

@@ -59,7 +59,7 @@ std::string constants_text(const gate::GateWeights& weights, const std::string& 
       "// clang-format off\nconstexpr GateWeights kFitted{\n";
   text += field("draw", weights.draw);
   text += fmt::format("    .draw_margin = {:.4f},\n", weights.draw_margin);
-  text += field("hypothesis", weights.hypothesis);
+  text += network("hypothesis", weights.hypothesis);
   text += fmt::format("    .hypothesis_margin = {:.4f},\n", weights.hypothesis_margin);
   text += network("closeness", weights.closeness);
   text += network("node_error", weights.node_error);

@@ -14,10 +14,10 @@
 namespace flowdlo::lab {
 namespace {
 
-constexpr double kMostError_m = 0.1;   // worse ones are all alike: a single scene must not decide
-constexpr double kBehindAtFirst = -6;  // the ranking decides until scenes say otherwise
+constexpr double kMostError_m = 0.1;  // worse ones are all alike: a single scene must not decide
 constexpr double kDrawRidge = 0.5;
-constexpr double kHypothesisRidge = 0.5;
+constexpr double kHypothesisRidge = 1e-3;
+constexpr int kHypothesisSteps = 600;
 constexpr double kDrawErrors = 0.25;
 constexpr double kHypothesisErrors = 1;  // another order costs centimetres where it is wrong
 constexpr double kNever = 99;            // a margin that nothing passes
@@ -59,11 +59,11 @@ std::array<double, gate::kDrawFeatures> fit_draw(const std::vector<GateSample>& 
       fit_policy(groups, std::vector<double>(gate::kDrawFeatures, 0), kDrawRidge));
 }
 
+using HypothesisNetwork = decltype(gate::GateWeights::hypothesis);
+
 /// `returned` [samples, hypotheses].
-std::array<double, gate::kHypothesisFeatures> fit_hypothesis(const std::vector<GateSample>& samples,
-                                                             const Costs& costs,
-                                                             const std::vector<Indices>& returned,
-                                                             const Indices& use) {
+HypothesisNetwork fit_hypothesis(const std::vector<GateSample>& samples, const Costs& costs,
+                                 const std::vector<Indices>& returned, const Indices& use) {
   std::vector<Group> groups;
   for (const std::size_t s : use) {
     if (returned[s].size() < 2) continue;
@@ -74,9 +74,9 @@ std::array<double, gate::kHypothesisFeatures> fit_hypothesis(const std::vector<G
     }
     groups.push_back(std::move(group));
   }
-  std::vector<double> start(gate::kHypothesisFeatures, 0);
-  start.front() = kBehindAtFirst;
-  return as_array<gate::kHypothesisFeatures>(fit_policy(groups, start, kHypothesisRidge));
+  if (groups.empty()) return {};
+  return network_of<HypothesisNetwork>(
+      fit_policy_network(groups, kHypothesisRidge, kHypothesisSteps));
 }
 
 /// A score that asks for a change, and what the change costs.

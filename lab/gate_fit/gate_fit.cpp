@@ -4,10 +4,13 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <atomic>
 #include <cstdio>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "estimator/device_choice.hpp"
@@ -95,22 +98,43 @@ Result<synth::SyntheticFrame> scene_of(const lab::SampleOrigin& origin, std::uin
                            count > 0 ? index % count : index, {.color = false});
 }
 
-/// Scenes `done` and later.
+using Measured = Result<std::optional<lab::GateSample>>;
+
+Measured measured_one(const Options& options, const Batch& batch, Model& model, int number) {
+  const std::uint64_t index = batch.origin.first + static_cast<std::uint64_t>(number);
+  const auto scene = scene_of(batch.origin, index);
+  if (!scene) return scene.error();
+  return lab::measure(*scene, model.sampler ? &*model.sampler : nullptr, options.draws,
+                      model.weights->metadata.variant.prior_kind,
+                      known_length_m(batch.origin, index, scene->meta.length_m));
+}
+
+/// Scenes `done` and later; several at a time where there is no model, which takes threads itself.
 Result<Samples> measured(const Options& options, const Batch& batch, int done) {
   auto model = open_model(options, batch.origin.draws > 0);
   if (!model) return model.error();
-  Samples samples;
   flowdlo::tools::ProgressBar bar(batch.origin.draws > 0 ? "scenes" : "scenes without model",
                                   batch.scenes - done, options.quiet);
-  for (int i = done; i < batch.scenes; ++i) {
-    const std::uint64_t index = batch.origin.first + static_cast<std::uint64_t>(i);
-    const auto scene = scene_of(batch.origin, index);
-    if (!scene) return scene.error();
-    auto sample = lab::measure(*scene, model->sampler ? &*model->sampler : nullptr, options.draws,
-                               model->weights->metadata.variant.prior_kind,
-                               known_length_m(batch.origin, index, scene->meta.length_m));
-    if (sample) samples.push_back(*std::move(sample));
-    bar.advance();
+  std::vector<Measured> all(static_cast<std::size_t>(batch.scenes - done), Measured(std::nullopt));
+  std::atomic<int> next = done;
+  std::mutex drawing;
+  const auto work = [&] {
+    for (int i = next++; i < batch.scenes; i = next++) {
+      all[static_cast<std::size_t>(i - done)] = measured_one(options, batch, *model, i);
+      const std::scoped_lock lock(drawing);
+      bar.advance();
+    }
+  };
+  {
+    std::vector<std::jthread> others;
+    const unsigned cores = std::max(1U, std::thread::hardware_concurrency());
+    while (!model->sampler && others.size() + 1 < cores) others.emplace_back(work);
+    work();
+  }
+  Samples samples;
+  for (Measured& one : all) {
+    if (!one) return one.error();
+    if (*one) samples.push_back(**std::move(one));
   }
   return samples;
 }

@@ -30,6 +30,9 @@ struct NetworkTask {
   /// Fills what the loss of that row rises by with each output.
   std::function<void(std::size_t row, std::span<const double> said, std::span<double> slope)>
       slope{};
+  /// In its place, where the rows' losses hang together: the same for all rows at once, both
+  /// [rows, outputs]. The stride is then 1.
+  std::function<void(std::span<const double> said, std::span<double> slope)> slopes{};
 };
 
 /// The same for the same task. Expects at least one row.

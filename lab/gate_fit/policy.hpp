@@ -1,8 +1,10 @@
-// Policy: linear scores fitted so that taking the best of each group costs least.
+// Policy: scores fitted so that taking the best of each group costs least.
 #pragma once
 
 #include <cstddef>
 #include <vector>
+
+#include "gate_fit/network_fit.hpp"
 
 namespace flowdlo::lab {
 
@@ -16,5 +18,10 @@ struct Group {
 /// to exp(weights . row), under a ridge penalty; from `start`, by steepest descent with momentum.
 [[nodiscard]] std::vector<double> fit_policy(const std::vector<Group>& groups,
                                              std::vector<double> start, double ridge);
+
+/// The same of a network with one output. `ridge` is that of NetworkTask; the first feature of each
+/// row is one. Expects at least one group.
+[[nodiscard]] NetworkWeights fit_policy_network(const std::vector<Group>& groups, double ridge,
+                                                int steps);
 
 }  // namespace flowdlo::lab

@@ -2,6 +2,7 @@
 
 #include "estimator/candidates.hpp"
 #include "estimator/conditions.hpp"
+#include "estimator/second_look.hpp"
 #include "eval/metrics.hpp"
 #include "evidence/mask_field.hpp"
 #include "gate/gate.hpp"
@@ -55,8 +56,10 @@ std::optional<GateSample> measure(const synth::SyntheticFrame& scene, flow::Samp
   sample.easy = scene.meta.easy();
   sample.hard = scene.meta.hard();
   sample.truth = eval::canonical(scene.truth());
-  sample.candidates = estimator::list_candidates(*conditions, drawn->prediction, drawn->reports,
-                                                 drawn->assigned, frame, rope_length_m);
+  const auto look = estimator::look_again(*conditions, frame, rope_length_m, kind, 1);
+  sample.candidates =
+      estimator::list_candidates(look, conditions->paths.rope_width_px, drawn->prediction,
+                                 drawn->reports, drawn->assigned, frame, rope_length_m);
   return sample;
 }
 

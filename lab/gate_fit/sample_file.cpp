@@ -13,7 +13,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr int kFormat = 2;  // rises with what a candidate holds
+constexpr int kFormat = 3;  // rises with what a candidate holds
 
 /// Calls `field` with the name and value of each number of a candidate.
 template <class Candidate, class Field>
@@ -24,6 +24,10 @@ void each_number(Candidate& candidate, const Field& field) {
   field("pixel_m", candidate.pixel_m);
   field("noise_m", candidate.noise_m);
   field("behind", candidate.behind);
+  field("readings", candidate.readings);
+  field("reread", candidate.reread);
+  field("votes", candidate.votes);
+  field("odds", candidate.odds);
   field("supported", candidate.supported);
   field("bridged", candidate.bridged);
   field("longest_gap", candidate.longest_gap);

@@ -12,10 +12,11 @@ namespace flowdlo::gate {
 namespace {
 
 // Where the features that these tests weigh stand in their lists.
-constexpr std::size_t kMoved = 2;            // of draw_features: against the prior's sigma
-constexpr std::size_t kRecallGained = 10;    // of draw_features
-constexpr std::size_t kRecallMissed = 4;     // of hypothesis_features: of 0.3
-constexpr std::size_t kClosenessRecall = 6;  // of closeness_features: of 0.3
+constexpr std::size_t kMoved = 2;             // of draw_features: against the prior's sigma
+constexpr std::size_t kRecallGained = 10;     // of draw_features
+constexpr std::size_t kRecallMissed = 21;     // of hypothesis_features: of 0.3
+constexpr std::size_t kVotes = 5;             // of hypothesis_features
+constexpr std::size_t kClosenessRecall = 10;  // of closeness_features: of 0.3
 constexpr std::size_t kClosenessLead = 1;
 
 Candidate straight(float shift_m, int hypothesis = 0, int draw = -1) {
@@ -51,7 +52,7 @@ Candidate with_recall(Candidate candidate, float recall) {
 GateWeights by_recall() {
   GateWeights weights;
   weights.draw[kRecallGained] = 1;
-  weights.hypothesis[kRecallMissed] = -1;
+  weights.hypothesis.straight[0][kRecallMissed] = -1;
   return weights;
 }
 
@@ -191,6 +192,16 @@ TEST(CalibratedGate, AnswersAreFiniteWhateverTheCandidate) {
     EXPECT_TRUE(std::isfinite(sigma_m));
     EXPECT_GT(sigma_m, 0);
   }
+}
+
+TEST(CalibratedGate, WhatMostReadingsAgreeOnCanWin) {
+  GateWeights weights;
+  weights.hypothesis.straight[0][kVotes] = 1;
+  Candidate alone = straight(0);
+  alone.votes = 0.2F;
+  Candidate agreed = straight(0.1F, 1);
+  agreed.votes = 0.8F;
+  EXPECT_EQ(choose_calibrated(std::vector{alone, agreed}, weights).chosen, 1U);
 }
 
 TEST(FittedGate, TrustsACleanRopeAndDoubtsOneThatLeavesTheMaskUnexplained) {

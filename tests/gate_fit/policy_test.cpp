@@ -29,5 +29,25 @@ TEST(FitPolicy, WithNothingToLearnTheRidgePullsToNothing) {
   for (const double weight : fit_policy(groups, {3, -3}, 1)) EXPECT_NEAR(weight, 0, 0.05);
 }
 
+using Net = gate::Network<3, 1>;
+
+TEST(FitPolicyNetwork, LearnsWhatNoStraightScoreCan) {  // the middle one of three is the cheapest
+  const std::vector<Group> groups(40, {{{1, -1, 0}, {1, 0, 0}, {1, 1, 0}}, {3, 0, 3}});
+  const auto net = network_of<Net>(fit_policy_network(groups, 1e-5, 800));
+  EXPECT_GT(net({1, 0, 0})[0], net({1, -1, 0})[0]);
+  EXPECT_GT(net({1, 0, 0})[0], net({1, 1, 0})[0]);
+}
+
+TEST(FitPolicyNetwork, OnlyDifferencesWithinAGroupCount) {
+  std::vector<Group> groups;
+  for (int i = 0; i < 40; ++i) {
+    const double level = i % 2;  // dear groups are not the fault of what marks them
+    groups.push_back({{{1, 0, level}, {1, 1, level}}, {9 * level, 9 * level + 1}});
+  }
+  const auto net = network_of<Net>(fit_policy_network(groups, 1e-4, 800));
+  EXPECT_GT(net({1, 0, 0})[0], net({1, 1, 0})[0]);
+  EXPECT_GT(net({1, 0, 1})[0], net({1, 1, 1})[0]);
+}
+
 }  // namespace
 }  // namespace flowdlo::lab

@@ -28,6 +28,10 @@ SampleFile content() {
   candidate.noise_m = 0.5F;
   candidate.draw = 2;
   candidate.behind = 1.25;
+  candidate.readings = 5;
+  candidate.reread = true;
+  candidate.votes = 0.4F;
+  candidate.odds = 0.3F;
   candidate.tube.mask_recall = 0.75F;
   candidate.tube.sharpest_bend = 0.125F;
   sample.candidates = {candidate};
@@ -56,6 +60,10 @@ TEST(SampleFile, GivesBackWhatWasWritten) {
   EXPECT_EQ(sample.candidates[0].noise_m, 0.5F);
   EXPECT_EQ(sample.candidates[0].draw, 2);
   EXPECT_EQ(sample.candidates[0].behind, 1.25);
+  EXPECT_EQ(sample.candidates[0].readings, 5);
+  EXPECT_TRUE(sample.candidates[0].reread);
+  EXPECT_EQ(sample.candidates[0].votes, 0.4F);
+  EXPECT_EQ(sample.candidates[0].odds, 0.3F);
   EXPECT_EQ(sample.candidates[0].tube.mask_recall, 0.75F);
   EXPECT_EQ(sample.candidates[0].tube.sharpest_bend, 0.125F);
 }

@@ -1,0 +1,119 @@
+#include "estimator/second_look.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <cstddef>
+#include <thread>
+
+#include "estimator/confidence.hpp"
+#include "gate/tube_score.hpp"
+#include "geometry/polyline.hpp"
+#include "path/readings.hpp"
+
+namespace flowdlo::estimator {
+namespace {
+
+constexpr std::size_t kOfEach = 2;  // hypotheses of a further reading
+constexpr double kSamePlace = 2;    // rope radii between the mean nodes of one and the same
+constexpr double kOddsScore = 1;    // score that makes a hypothesis e times as likely
+
+using Reading = std::vector<Hypothesis>;  // what one reading brought forth, best first
+
+/// What each reading makes of the frame; nothing where it fails.
+std::vector<Reading> read(const std::vector<path::Reading>& kinds, const Conditions& conditions,
+                          const Frame& frame, double rope_length_m, weights::PriorKind kind,
+                          int threads) {
+  std::vector<Reading> readings(kinds.size());
+  std::atomic<std::size_t> next = 0;
+  const auto work = [&] {
+    for (std::size_t i = next++; i < kinds.size(); i = next++) {
+      const auto paths = path::trace_as(kinds[i], frame, conditions.paths.rope_width_px,
+                                        {.rope_length_m = rope_length_m});
+      if (!paths) continue;
+      auto lifted = lift_all(*paths, conditions.cloud, conditions.visible, frame, kind);
+      if (!lifted) continue;
+      if (lifted->size() > kOfEach) lifted->resize(kOfEach);
+      readings[i] = *std::move(lifted);
+    }
+  };
+  const std::size_t cores = std::max(1U, std::thread::hardware_concurrency());
+  const std::size_t workers = threads > 0 ? static_cast<std::size_t>(threads) : cores;
+  {
+    std::vector<std::jthread> others;
+    while (others.size() + 1 < std::min(workers, kinds.size())) others.emplace_back(work);
+    work();
+  }
+  std::erase_if(readings, [](const Reading& reading) { return reading.empty(); });
+  return readings;
+}
+
+bool same_place(const Hypothesis& a, const Hypothesis& b, double radius_m) {
+  return geometry::mean_distance(a.prior.nodes, b.prior.nodes) <= kSamePlace * radius_m;
+}
+
+/// The hypotheses of all readings, each place once: as the first reading has it, otherwise as the
+/// one of best score.
+std::vector<Hypothesis> pooled(const std::vector<Reading>& readings, double radius_m) {
+  std::vector<Hypothesis> pool = readings.front();
+  std::vector<Hypothesis> others;
+  for (std::size_t r = 1; r < readings.size(); ++r) {
+    for (const Hypothesis& hypothesis : readings[r]) {
+      others.push_back(hypothesis);
+      others.back().reading = static_cast<int>(r);
+    }
+  }
+  std::stable_sort(others.begin(), others.end(),
+                   [](const Hypothesis& a, const Hypothesis& b) { return a.score > b.score; });
+  for (Hypothesis& other : others) {
+    const bool known = std::any_of(pool.begin(), pool.end(), [&](const Hypothesis& hypothesis) {
+      return same_place(hypothesis, other, radius_m);
+    });
+    if (!known) pool.push_back(std::move(other));
+  }
+  return pool;
+}
+
+/// Lets each reading say how likely it holds each place.
+void count_votes(const std::vector<Reading>& readings, double radius_m,
+                 std::vector<Hypothesis>& pool) {
+  const auto each = 1 / static_cast<float>(readings.size());
+  for (Hypothesis& hypothesis : pool) {
+    hypothesis.votes = 0;
+    hypothesis.odds = 0;
+    for (const Reading& reading : readings) {
+      const double best = reading.front().score;
+      double sum = 0;
+      double here = 0;
+      for (std::size_t i = 0; i < reading.size(); ++i) {
+        const double share = std::exp((reading[i].score - best) / kOddsScore);
+        const bool same = same_place(hypothesis, reading[i], radius_m);
+        sum += share;
+        here += same ? share : 0;
+        if (i == 0 && same) hypothesis.votes += each;
+      }
+      hypothesis.odds += each * static_cast<float>(here / sum);
+    }
+  }
+}
+
+}  // namespace
+
+SecondLook look_again(const Conditions& conditions, const Frame& frame, double rope_length_m,
+                      weights::PriorKind kind, int threads) {
+  const auto& first = conditions.hypotheses;
+  const float width_px = conditions.paths.rope_width_px;
+  std::vector<path::Reading> kinds;
+  if (confidence(first.front().evidence, lead(first)) < kClear) {
+    kinds = path::further_readings(frame, width_px);
+  }
+  auto readings = read(kinds, conditions, frame, rope_length_m, kind, threads);
+  readings.insert(readings.begin(), first);
+  const gate::TubeView view(frame, width_px);
+  const auto radius_m = static_cast<double>(view.radius_m(first.front().prior.nodes));
+  SecondLook look{static_cast<int>(readings.size()), pooled(readings, radius_m)};
+  count_votes(readings, radius_m, look.hypotheses);
+  return look;
+}
+
+}  // namespace flowdlo::estimator
