@@ -31,6 +31,8 @@ constexpr float kInnerWidths = 15.0F;
 constexpr float kEatenWidths = 0.5F;
 constexpr float kHangsWidths = 5.0F;  // before what lies farther
 constexpr float kHeldWidths = 0.5F;   // behind the rope, at most: what holds it
+constexpr float kSteepestTip = 2.0F;  // widths of depth a width towards the tip
+constexpr int kMostlyNothing = 3;     // times as much of the rope without a depth beside it
 constexpr float kEdgePx = 0.25F;      // how far both edges together lie beyond what was probed
 constexpr float kWidthFrom = 1.0F;    // widths from a tip between which the local width
 constexpr float kWidthTo = 3.0F;      // is measured
@@ -189,32 +191,56 @@ class StripEnd {
   }
 
  private:
-  /// Whether what lies beyond is nearer than the rope by two widths, or about as far as a rope that
-  /// hangs before something farther: a gripper holds it.
-  [[nodiscard]] bool covered(const Frame& frame, const Vector2f& out) const {
-    std::vector<float> rope;
-    std::vector<float> inner;
+  /// What the readings near the tip say.
+  struct Tip {
+    float depth_m = 0;   // 0: none
+    float slope_m = 0;   // depth a width towards the tip
+    bool hangs = false;  // before something farther, or before nothing that is measured
+  };
+
+  [[nodiscard]] Tip tip() const {
+    std::vector<float> first;
+    std::vector<float> next;
     std::array<std::vector<float>, 2> heights;  // and farther in, clear of what covers the tip
+    int beside = 0;
+    int before_nothing = 0;
     for (const Reading& reading : strip_.readings) {
       const Station& station = strip_.stations[static_cast<std::size_t>(reading.station)];
-      const float in_px = std::abs(station.arclength_px - at(0).arclength_px);
-      if (in_px < kWidthFrom * strip_.width_px) rope.push_back(reading.depth_m);
-      const float in = in_px / strip_.width_px;
-      if (in < kWidthTo) inner.push_back(reading.depth_m);
-      if (station.beside_m <= 0 || in > kInnerWidths) continue;
+      const float in = std::abs(station.arclength_px - at(0).arclength_px) / strip_.width_px;
+      if (in < kWidthTo) (in < kWidthFrom ? first : next).push_back(reading.depth_m);
+      if (in > kInnerWidths) continue;
+      const bool tells = station.beside_m > reading.depth_m;  // something nearer hides what does
+      if (in >= kWidthTo) ++(tells ? beside : before_nothing);
+      if (!tells) continue;
       heights[in < kWidthTo ? 0 : 1].push_back(station.beside_m - reading.depth_m);
     }
-    if (rope.empty()) return false;
-    const float depth_m = median_of(rope);
-    const float width_m = depth_m * strip_.width_px * at(0).aside;
+    if (first.empty()) return {};
+    Tip tip;
+    tip.depth_m = median_of(first);
+    const float width_m = tip.depth_m * strip_.width_px * at(0).aside;
+    if (!next.empty()) {
+      const float apart = 0.5F * kWidthTo;  // widths between the middles of both parts
+      tip.slope_m = (tip.depth_m - median_of(next)) / apart;
+      tip.slope_m = std::clamp(tip.slope_m, -kSteepestTip * width_m, kSteepestTip * width_m);
+    }
     float height_m = 0;
     for (std::vector<float>& some : heights) {
       if (!some.empty() && height_m <= kHangsWidths * width_m) height_m = median_of(some);
     }
-    const bool hangs = height_m > kHangsWidths * width_m;
+    tip.hangs = height_m > kHangsWidths * width_m || before_nothing > kMostlyNothing * beside;
+    return tip;
+  }
+
+  /// Whether what lies beyond is nearer than the rope by two widths, or about as far as a rope that
+  /// hangs: a gripper holds it.
+  [[nodiscard]] bool covered(const Frame& frame, const Vector2f& out) const {
+    const Tip rope = tip();
+    if (rope.depth_m <= 0) return false;
+    const float width_m = rope.depth_m * strip_.width_px * at(0).aside;
+    const bool hangs = rope.hangs;
     const float covering_m =
-        hangs ? std::min(depth_m, median_of(inner)) + kHeldWidths * width_m  // tips fray
-              : depth_m - kNearerWidths * width_m;
+        hangs ? rope.depth_m + std::max(rope.slope_m, 0.0F) + kHeldWidths * width_m
+              : rope.depth_m - kNearerWidths * width_m;
     // A frayed mask ends before the rope does: what holds it goes on beyond the rest.
     const float from_px = hangs ? kFreePx + kEatenWidths * strip_.width_px : kFreePx;
     int nearer = 0;

@@ -312,22 +312,48 @@ TEST(Refine, DoubtsTheNodesNearAnEndOutsideOfTheImage) {
   EXPECT_LT(prior.sigma_m[20], prior.sigma_m[50]);
 }
 
-TEST(Refine, KeepsTheTipOfARopeThatAGripperHolds) {
-  DrawnRope rope = draw_rope(straight_line());
-  for (int v = 220; v < 270; ++v) {  // a gripper about as far as the rope, from its end on
-    for (int u = 520; u < 560; ++u) {
+/// Puts a gripper at that depth where the rope ends, from that column on.
+void hold_end(DrawnRope& rope, int first, float depth_m) {
+  for (int v = 220; v < 270; ++v) {
+    for (int u = first; u < first + 40; ++u) {
       const std::size_t at = rope.index(u, v);
-      rope.image.depth_m[at] = 0.595F;
+      rope.image.depth_m[at] = depth_m;
       rope.image.mask[at] = 0;
     }
   }
-  for (Eigen::Vector2f& p : rope.path.points_px) p.x() = std::min(p.x(), 519.0F);
+  for (Eigen::Vector2f& p : rope.path.points_px) {
+    p.x() = std::min(p.x(), static_cast<float>(first - 1));
+  }
   rope.path.points_px.erase(std::unique(rope.path.points_px.begin(), rope.path.points_px.end()),
                             rope.path.points_px.end());
   rope.path.bridged.resize(rope.path.points_px.size());
+}
+
+TEST(Refine, KeepsTheTipOfARopeThatAGripperHolds) {
+  DrawnRope rope = draw_rope(straight_line());
+  hold_end(rope, 520, 0.595F);
   const Prior prior = refined(rope);
   EXPECT_NEAR(prior.nodes.back().x, 0.2F, 0.0015F) << "a round cap lies within the gripper";
   EXPECT_NEAR(prior.nodes.front().x, -0.2F, 0.0015F);
+  EXPECT_GT(prior.sigma_m.back(), 2 * prior.sigma_m.front());
+}
+
+TEST(Refine, KeepsAHeldTipBeforeABackgroundWithoutDepth) {
+  DrawnRope rope = draw_rope(straight_line());
+  for (std::size_t at = 0; at < rope.image.mask.size(); ++at) {
+    if (rope.image.mask[at] == 0) rope.image.depth_m[at] = 0;
+  }
+  hold_end(rope, 520, 0.595F);
+  const Prior prior = refined(rope);
+  EXPECT_NEAR(prior.nodes.back().x, 0.2F, 0.0015F);
+  EXPECT_GT(prior.sigma_m.back(), 2 * prior.sigma_m.front());
+}
+
+TEST(Refine, KeepsAHeldTipOfARopeThatRunsAwayFromTheCamera) {
+  DrawnRope rope = draw_rope({{-0.2, 0, 0.5}, {0.2, 0, 0.7}});
+  const int last = static_cast<int>(rope.path.points_px.back().x());
+  hold_end(rope, last - 4, 0.7F);
+  const Prior prior = refined(rope);
   EXPECT_GT(prior.sigma_m.back(), 2 * prior.sigma_m.front());
 }
 
