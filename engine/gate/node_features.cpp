@@ -18,7 +18,7 @@ constexpr double kLeastUnseen_m = 1e-3;
 constexpr double kMost_m = 100;
 constexpr double kMostLogit = 6;
 constexpr double kSure = 2;         // logit above which there is no doubt to speak of
-constexpr std::size_t kOfNode = 6;  // features that differ from node to node, after the first
+constexpr std::size_t kOfNode = 7;  // features that differ from node to node, after the first
 
 double log_m(double length_m, double least_m) {
   if (!std::isfinite(length_m)) return std::log(kMost_m / kUnit_m);
@@ -77,15 +77,21 @@ void NodeFeatures::measure_rivals(std::span<const Candidate> candidates,
   rivals_odds_ = 1 - share[chosen];
   alone_ = returned.size() < 2;
   std::array<double, kNodes> square{};
+  std::array<double, kNodes> voted{};
   for (std::size_t h = 0; h < returned.size(); ++h) {
     if (h == chosen) continue;
-    const auto apart_m = distances_m(candidate_.nodes, candidates[returned[h]].nodes);
+    const Candidate& rival = candidates[returned[h]];
+    const auto apart_m = distances_m(candidate_.nodes, rival.nodes);
     for (std::size_t i = 0; i < kNodes; ++i) {
       square[i] += share[h] * apart_m[i] * apart_m[i];
+      voted[i] += static_cast<double>(rival.odds) * apart_m[i] * apart_m[i];
       furthest_m_[i] = std::max(furthest_m_[i], apart_m[i]);
     }
   }
-  for (std::size_t i = 0; i < kNodes; ++i) spread_m_[i] = std::sqrt(square[i]);
+  for (std::size_t i = 0; i < kNodes; ++i) {
+    spread_m_[i] = std::sqrt(square[i]);
+    voted_m_[i] = std::sqrt(voted[i]);
+  }
 }
 
 void NodeFeatures::describe_frame(const Candidate& prior, double probability) {
@@ -107,6 +113,9 @@ void NodeFeatures::describe_frame(const Candidate& prior, double probability) {
   add(log_m(mean(spread_m_), kLeastApart_m));
   add(log_m(mean(furthest_m_), kLeastApart_m));
   add(rivals_odds_);
+  add(candidate_.readings > 1 ? 1 : 0);
+  add(static_cast<double>(candidate_.votes));
+  add(static_cast<double>(candidate_.odds));
   add(logit);
   add(std::max(0.0, kSure - logit));
   add(log_m(static_cast<double>(candidate_.radius_m), kLeastSigma_m));
@@ -138,6 +147,7 @@ std::array<double, kNodeFeatures> NodeFeatures::of(std::size_t node) const {
   row[4] = log_m(static_cast<double>(candidate_.unseen_m[node]), kLeastUnseen_m);
   row[5] = middle;
   row[6] = middle * own;
+  row[7] = log_m(voted_m_[node], kLeastApart_m);
   return row;
 }
 

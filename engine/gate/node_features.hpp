@@ -10,7 +10,7 @@
 
 namespace flowdlo::gate {
 
-inline constexpr std::size_t kNodeFeatures = 32;
+inline constexpr std::size_t kNodeFeatures = 36;
 
 class NodeFeatures {
  public:
@@ -30,6 +30,7 @@ class NodeFeatures {
   const Candidate& candidate_;
   std::array<double, kNodes> sigma_m_{};     ///< the prior's own
   std::array<double, kNodes> spread_m_{};    ///< of the rivals around each node, weighed by odds
+  std::array<double, kNodes> voted_m_{};     ///< the same, weighed by what the readings hold
   std::array<double, kNodes> furthest_m_{};  ///< rival of each node
   double rivals_odds_ = 0;                   ///< [0, 1] that one of them is right, by score alone
   bool alone_ = true;

@@ -13,7 +13,8 @@ namespace {
 
 // Where the features that these tests look at stand in a row.
 constexpr std::size_t kSpread = 2;
-constexpr std::size_t kAlone = 9;
+constexpr std::size_t kVoted = 7;
+constexpr std::size_t kAlone = 10;
 
 Candidate straight(int hypothesis) {
   Candidate candidate;
@@ -51,6 +52,15 @@ TEST(NodeFeatures, ARivalOfLowScoreCastsLess) {
   const double near = features_of(candidates, -1).of(50)[kSpread];
   const double far = features_of(candidates, -5).of(50)[kSpread];
   EXPECT_LT(far, near - 1);
+}
+
+TEST(NodeFeatures, ARivalThatMoreReadingsHoldCastsMore) {
+  std::vector candidates{straight(0), branching(1)};
+  candidates[1].odds = 0.4F;
+  const double many = features_of(candidates, 0).of(50)[kVoted];
+  candidates[1].odds = 0.1F;
+  const double few = features_of(candidates, 0).of(50)[kVoted];
+  EXPECT_GT(many, few + 0.5);
 }
 
 TEST(NodeFeatures, ARivalWalkedTheOtherWayRunsNowhereElse) {
