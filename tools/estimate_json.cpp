@@ -107,6 +107,7 @@ std::string estimate_json(const Estimate& estimate, const Provenance& provenance
   json["draw"] = estimate.draw < 0 ? Json(nullptr) : Json(estimate.draw);
   json["gate"] = estimate.calibrated ? "calibrated" : "thesis";
   json["confidence"] = number(estimate.confidence);
+  json["readings"] = estimate.readings;
   json["mask_agreement"] = number(estimate.mask_agreement);
   json["prior_mask_agreement"] = number(estimate.prior_mask_agreement);
   json["draws"] = draws_json(estimate.draws);

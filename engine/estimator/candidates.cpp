@@ -68,7 +68,7 @@ std::vector<gate::Candidate> list_candidates(const SecondLook& look, float rope_
   std::vector<gate::Candidate> candidates;
   const auto measure = [&](gate::Candidate& candidate) {
     candidate.tube = view.score(candidate.nodes, candidate.radius_m);
-    candidate.pixel_m = view.pixel_m(candidate.nodes);
+    candidate.pixel_m = gate::pixel_m(candidate.nodes, frame.intrinsics);
     candidate.noise_m = view.noise_m();
     const auto h = static_cast<std::size_t>(candidate.hypothesis);
     candidate.unseen_m = unseen_m(candidate.nodes, hypotheses[h].prior.support);

@@ -147,6 +147,8 @@ Estimate conclude(const Returned& returned, const std::vector<estimator::Hypothe
     estimate.alternatives.push_back({other.prior.nodes, static_cast<float>(other.score),
                                      mask.agreement(other.prior.nodes, frame.intrinsics)});
   }
+  std::stable_sort(estimate.alternatives.begin(), estimate.alternatives.end(),
+                   [](const Alternative& a, const Alternative& b) { return a.score > b.score; });
   return estimate;
 }
 
@@ -238,11 +240,12 @@ std::vector<int> Estimator::Impl::assign(
   return estimator::assign_draws(count, margin, config.draws);
 }
 
-/// Beside the model, where there is more than one thread; the frame as it was read for the thesis'
-/// gate, which knows no doubt.
+/// Beside the model, where there is more than one thread and something to do; the frame as it was
+/// read for the thesis' gate, which knows no doubt.
 std::future<estimator::SecondLook> Estimator::Impl::look_again(
     const estimator::Conditions& conditions, const Frame& frame, double& readings_ms) const {
-  const auto policy = config.threads == 1 ? std::launch::deferred : std::launch::async;
+  const bool aside = calibrated() && config.threads != 1 && estimator::in_doubt(conditions);
+  const auto policy = aside ? std::launch::async : std::launch::deferred;
   return std::async(policy, [&, calibrated = calibrated()] {
     if (!calibrated) return estimator::SecondLook{1, conditions.hypotheses};
     estimator::Stopwatch watch;

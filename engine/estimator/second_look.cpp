@@ -99,18 +99,21 @@ void count_votes(const std::vector<Reading>& readings, double radius_m,
 
 }  // namespace
 
+bool in_doubt(const Conditions& conditions) {
+  const auto& first = conditions.hypotheses;
+  return confidence(first.front().evidence, lead(first)) < kClear;
+}
+
 SecondLook look_again(const Conditions& conditions, const Frame& frame, double rope_length_m,
                       weights::PriorKind kind, int threads) {
   const auto& first = conditions.hypotheses;
   const float width_px = conditions.paths.rope_width_px;
   std::vector<path::Reading> kinds;
-  if (confidence(first.front().evidence, lead(first)) < kClear) {
-    kinds = path::further_readings(frame, width_px);
-  }
+  if (in_doubt(conditions)) kinds = path::further_readings(frame, width_px);
   auto readings = read(kinds, conditions, frame, rope_length_m, kind, threads);
   readings.insert(readings.begin(), first);
-  const gate::TubeView view(frame, width_px);
-  const auto radius_m = static_cast<double>(view.radius_m(first.front().prior.nodes));
+  const auto radius_m = static_cast<double>(
+      gate::tube_radius_m(first.front().prior.nodes, frame.intrinsics, width_px));
   SecondLook look{static_cast<int>(readings.size()), pooled(readings, radius_m)};
   count_votes(readings, radius_m, look.hypotheses);
   return look;

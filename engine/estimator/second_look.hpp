@@ -13,6 +13,9 @@ namespace flowdlo::estimator {
 /// How sure the first reading has to be of its best hypothesis to be left alone, `confidence`.
 inline constexpr float kClear = 0.7F;
 
+/// Whether it is less sure than that.
+[[nodiscard]] bool in_doubt(const Conditions& conditions);
+
 struct SecondLook {
   int readings = 1;                      ///< of the mask, the first among them
   std::vector<Hypothesis> hypotheses{};  ///< those of the first reading as they were, best first,

@@ -84,11 +84,31 @@ struct Tally {
   double crossing_agreeing = 0;
 };
 
+/// Finite, and as wide as ropes are.
+float usual_width_px(float rope_width_px) {
+  return std::isfinite(rope_width_px) ? std::clamp(rope_width_px, 1.0F, 400.0F) : 1.0F;
+}
+
 }  // namespace
+
+float pixel_m(const Centerline& nodes, const Intrinsics& camera) {
+  std::vector<float> depths;
+  for (const Point3& node : nodes) {
+    if (node.z > kMinDepth_m && node.z < kMostDepth_m) depths.push_back(node.z);
+  }
+  if (depths.empty()) return 0;
+  const auto middle = depths.begin() + static_cast<std::ptrdiff_t>(depths.size() / 2);
+  std::nth_element(depths.begin(), middle, depths.end());
+  return *middle / (0.5F * (camera.fx + camera.fy));
+}
+
+float tube_radius_m(const Centerline& nodes, const Intrinsics& camera, float rope_width_px) {
+  return std::min(kMostRadius_m, 0.5F * usual_width_px(rope_width_px) * pixel_m(nodes, camera));
+}
 
 TubeView::TubeView(const Frame& frame, float rope_width_px)
     : camera_(frame.intrinsics),
-      rope_width_px_(std::isfinite(rope_width_px) ? std::clamp(rope_width_px, 1.0F, 400.0F) : 1.0F),
+      rope_width_px_(usual_width_px(rope_width_px)),
       stride_px_(std::max(1, static_cast<int>(rope_width_px_ / kCellsAcross))) {
   find_region(frame);
   const auto cells = static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_);
@@ -155,19 +175,8 @@ float TubeView::depth_noise_m() const {
   return 1.05F * *middle;  // median of |a - b| is 0.954 deviations
 }
 
-float TubeView::pixel_m(const Centerline& nodes) const {
-  std::vector<float> depths;
-  for (const Point3& node : nodes) {
-    if (node.z > kMinDepth_m && node.z < kMostDepth_m) depths.push_back(node.z);
-  }
-  if (depths.empty()) return 0;
-  const auto middle = depths.begin() + static_cast<std::ptrdiff_t>(depths.size() / 2);
-  std::nth_element(depths.begin(), middle, depths.end());
-  return *middle / (0.5F * (camera_.fx + camera_.fy));
-}
-
 float TubeView::radius_m(const Centerline& nodes) const {
-  return std::min(kMostRadius_m, 0.5F * rope_width_px_ * pixel_m(nodes));
+  return tube_radius_m(nodes, camera_, rope_width_px_);
 }
 
 void TubeView::compare(const std::vector<TubePoint>& tube, float radius_m, TubeScore& score) {

@@ -26,6 +26,13 @@ struct TubeScore {
   float sharpest_bend = 2;       ///< [0, 2] radius times the largest curvature
 };
 
+/// What a pixel spans where `nodes` are, metres; 0 where none is in front of the camera.
+[[nodiscard]] float pixel_m(const Centerline& nodes, const Intrinsics& camera);
+
+/// What half of `rope_width_px` means in metres where `nodes` are, at most 1.
+[[nodiscard]] float tube_radius_m(const Centerline& nodes, const Intrinsics& camera,
+                                  float rope_width_px);
+
 /// The side of a frame that hypotheses are compared with, read once. Rasters are coarse: a rope is
 /// five to ten cells wide, or as many pixels as it has.
 class TubeView {
@@ -33,11 +40,8 @@ class TubeView {
   /// Expects a valid frame. `rope_width_px` is path::Traversals'.
   TubeView(const Frame& frame, float rope_width_px);
 
-  /// What half a rope's width means in metres where `nodes` are.
+  /// `tube_radius_m` of the rope's width.
   [[nodiscard]] float radius_m(const Centerline& nodes) const;
-
-  /// What a pixel spans where `nodes` are; 0 where none is in front of the camera.
-  [[nodiscard]] float pixel_m(const Centerline& nodes) const;
 
   /// Standard deviation of the depths on the mask, as far as neighbours tell it.
   [[nodiscard]] float noise_m() const { return noise_m_; }

@@ -35,6 +35,7 @@ class LookAgain : public ::testing::Test {
 };
 
 TEST_F(LookAgain, AClearFrameIsReadOnce) {
+  EXPECT_FALSE(estimator::in_doubt(conditions_));
   const auto once = look();
   EXPECT_EQ(once.readings, 1);
   ASSERT_EQ(once.hypotheses.size(), conditions_.hypotheses.size());
@@ -44,6 +45,7 @@ TEST_F(LookAgain, AClearFrameIsReadOnce) {
 
 TEST_F(LookAgain, WhereThereIsDoubtOtherReadingsSayWhatTheyHold) {
   cast_doubt();
+  EXPECT_TRUE(estimator::in_doubt(conditions_));
   const auto again = look();
   EXPECT_GE(again.readings, 4);
   EXPECT_NEAR(again.hypotheses.front().votes, 1, 1e-5);

@@ -258,8 +258,7 @@ TEST(TubeView, RadiusIsHalfTheWidthWhereTheNodesAre) {
 
 TEST(TubeView, AsManyPixelsAsTheRopeIsWideSpanItsDiameter) {
   const Picture picture(wave);
-  EXPECT_NEAR(kWidth_px * TubeView(picture.frame(), kWidth_px).pixel_m(nodes_of(wave)), 0.02F,
-              2e-5F);
+  EXPECT_NEAR(kWidth_px * pixel_m(nodes_of(wave), kCamera), 0.02F, 2e-5F);
 }
 
 }  // namespace

@@ -37,6 +37,7 @@ TEST(EstimateJson, HasTheFieldsOfTheContract) {
   EXPECT_DOUBLE_EQ(json["confidence"], 0.8);
   EXPECT_DOUBLE_EQ(json["mask_agreement"], 0.95);
   EXPECT_DOUBLE_EQ(json["prior_mask_agreement"], 0.9);
+  EXPECT_EQ(json["readings"], 5);
   EXPECT_EQ(json["alternatives"][0]["nodes_m"].size(), 64U);
   EXPECT_DOUBLE_EQ(json["alternatives"][0]["score"], 0.5);
   EXPECT_DOUBLE_EQ(json["timings_ms"]["model"], 12.0);

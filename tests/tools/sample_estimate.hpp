@@ -21,6 +21,7 @@ inline Estimate sample_estimate() {
   estimate.confidence = 0.8F;
   estimate.mask_agreement = 0.95F;
   estimate.prior_mask_agreement = 0.9F;
+  estimate.readings = 5;
   estimate.draws = {{false, true, 2.5F, 0.2F, 0.4F}, {true, true, 1.01F, 0.02F, 0.95F}};
   estimate.alternatives = {{estimate.nodes, 0.5F, 0.7F}};
   estimate.timings.model_ms = 12.0;
