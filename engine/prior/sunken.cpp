@@ -20,6 +20,8 @@ constexpr std::size_t kLeastReadings = 2;  // of a block
 constexpr float kCoreWidths = 0.35F;       // from the axis
 constexpr float kNearShare = 0.35F;        // quantile of a block's depths: pixels fly backwards
 constexpr float kSteepest = 2.7F;          // metres of depth a metre aside
+constexpr float kSteeper = 1.5F;           // times as steep as on both sides
+constexpr std::size_t kSlopeBlocks = 3;    // which are so long
 constexpr float kJumpWidths = 2.0F;
 constexpr float kJumpShare = 0.01F;      // of the depth: noise
 constexpr float kHoleWidths = 6.0F;      // without readings
@@ -67,20 +69,51 @@ std::vector<Block> blocks_of(const Strip& strip, int length) {
   return blocks;
 }
 
-/// Metres by which two blocks may differ.
-float reach_m(const Block& a, const Block& b, float width_px) {
-  const float near_m = std::min(a.depth_m, b.depth_m);
-  const float apart = std::abs(a.arclength_px - b.arclength_px) * a.aside;
-  return near_m * (kSteepest * apart + kJumpWidths * width_px * a.aside + kJumpShare);
-}
+/// The blocks with the slopes that runs of them have at their ends.
+class Profile {
+ public:
+  Profile(const std::vector<Block>& blocks, float width_px)
+      : blocks_(blocks), width_px_(width_px) {}
+
+  /// True when the rope may go on from block `a`, the last one of those before it, to block `b`,
+  /// which comes after it: not steeper than a rope bends away, or as steep as it runs before `a`
+  /// and after `b`. `first` and `last` bound the blocks that tell.
+  [[nodiscard]] bool joins(std::size_t a, std::size_t b, std::size_t first,
+                           std::size_t last) const {
+    const Block& before = blocks_[a];
+    const Block& after = blocks_[b];
+    const float rise_m = after.depth_m - before.depth_m;
+    const float apart_px = after.arclength_px - before.arclength_px;
+    const float near_m = std::min(before.depth_m, after.depth_m);
+    const float reach_m = near_m * (kSteepest * apart_px * before.aside +
+                                    kJumpWidths * width_px_ * before.aside + kJumpShare);
+    if (std::abs(rise_m) <= reach_m) return true;
+    const float way = rise_m > 0 ? 1.0F : -1.0F;
+    const float slope =
+        std::min(way * slope_at(a > first + kSlopeBlocks ? a - kSlopeBlocks : first, a),
+                 way * slope_at(b, std::min(b + kSlopeBlocks, last)));
+    const float steep_m = kSteeper * slope * apart_px * before.depth_m * after.depth_m;
+    return std::abs(rise_m) <= reach_m + std::max(0.0F, steep_m);
+  }
+
+ private:
+  /// How fast the inverse depth, linear along a straight rope, falls from one block to the other.
+  [[nodiscard]] float slope_at(std::size_t a, std::size_t b) const {
+    if (a >= b) return 0;
+    return (1 / blocks_[a].depth_m - 1 / blocks_[b].depth_m) /
+           (blocks_[b].arclength_px - blocks_[a].arclength_px);
+  }
+
+  const std::vector<Block>& blocks_;
+  float width_px_;
+};
 
 std::vector<Run> runs_of(const std::vector<Block>& blocks, float width_px) {
+  const Profile profile(blocks, width_px);
   std::vector<Run> runs{{0, 0}};
   for (std::size_t i = 1; i < blocks.size(); ++i) {
-    const Block& before = blocks[i - 1];
-    const bool jump =
-        std::abs(blocks[i].depth_m - before.depth_m) > reach_m(blocks[i], before, width_px);
-    const bool hole = blocks[i].arclength_px - before.arclength_px > kHoleWidths * width_px;
+    const bool jump = !profile.joins(i - 1, i, 0, blocks.size() - 1);
+    const bool hole = blocks[i].arclength_px - blocks[i - 1].arclength_px > kHoleWidths * width_px;
     if (jump || hole) runs.push_back({i, i});
     runs.back().last = i;
   }
@@ -145,21 +178,24 @@ const Run* hanging_beside(const std::vector<Run>& runs, std::size_t r, int step)
 /// background; or a few pixels somewhere between the two.
 void mark_sunk(const std::vector<Block>& blocks, float width_px, std::vector<Run>& runs) {
   if (mark_hanging(blocks, width_px, runs) < kLeastHanging) return;
+  const Profile profile(blocks, width_px);
   for (std::size_t r = 0; r < runs.size(); ++r) {
     float near_m = 0;  // of the neighbours in mid-air
     int behind = 0;
     bool nearer = false;
     const auto compare = [&](const Block& there, const Block& here) {
-      if (std::abs(here.depth_m - there.depth_m) <= reach_m(here, there, width_px)) return;
       nearer = nearer || here.depth_m < there.depth_m;
       ++behind;
       near_m = std::max(near_m, there.depth_m);
     };
-    if (const Run* before = hanging_beside(runs, r, -1)) {
-      compare(blocks[before->last], blocks[runs[r].first]);
+    const Run& run = runs[r];
+    const Run* before = hanging_beside(runs, r, -1);
+    if (before != nullptr && !profile.joins(before->last, run.first, before->first, run.last)) {
+      compare(blocks[before->last], blocks[run.first]);
     }
-    if (const Run* after = hanging_beside(runs, r, 1)) {
-      compare(blocks[after->first], blocks[runs[r].last]);
+    const Run* after = hanging_beside(runs, r, 1);
+    if (after != nullptr && !profile.joins(run.last, after->first, run.first, after->last)) {
+      compare(blocks[after->first], blocks[run.last]);
     }
     if (behind == 0 || nearer) continue;
     const auto share = height_share(blocks, runs[r], near_m);

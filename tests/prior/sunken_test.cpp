@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstddef>
 
 #include "drawn_rope.hpp"
@@ -74,6 +75,19 @@ TEST(Sunken, ARopeThatComesNearerAllTheWayIsKept) {
   for (int u = 0; u < 640; ++u) repaint(rope, u, u, 1.9F - 0.0025F * static_cast<float>(u));
   EXPECT_GT(readings_between(dropped(rope), 130, 240), 500);
   EXPECT_GT(readings_between(dropped(rope), 410, 510), 500);
+}
+
+// Lies on a plane seen at a grazing angle: 1 / z falls evenly along the image.
+TEST(Sunken, ARopeThatRunsAwaySteeplyIsKept) {
+  DrawnRope rope = draw_rope(straight_line());
+  for (int u = 0; u < 640; ++u) {
+    const float away = std::max(0.0F, static_cast<float>(u) - 300.0F);
+    const float rope_m = 1 / (1 / 0.4F - 0.009F * away);
+    repaint(rope, u, u, rope_m, u < 300 ? kWall_m : rope_m + 0.05F);
+  }
+  repaint(rope, 400, 440, 0, 0);
+  EXPECT_GT(readings_between(dropped(rope), 130, 240), 500);
+  EXPECT_GT(readings_between(dropped(rope), 445, 510), 300);
 }
 
 TEST(Sunken, ThePriorBridgesTheStretch) {
