@@ -20,17 +20,17 @@ void record_simd_gemm(Plan& plan, const ops::Linear& op, const DenseLayer& layer
     for (int panel = 0; panel < layer.out / kColumns; panel += most_panels) {
       const int panels = std::min(most_panels, layer.out / kColumns - panel);
       const VkDeviceSize panel_bytes =
-          VkDeviceSize{layer.halves ? 8U : 16U} * static_cast<VkDeviceSize>(panel_texels);
+          VkDeviceSize{layer.pairs ? 8U : 16U} * static_cast<VkDeviceSize>(panel_texels);
+      const Range weight{layer.weight.id, panel_bytes * static_cast<VkDeviceSize>(panel),
+                         panel_bytes * static_cast<VkDeviceSize>(panels)};
       const Range bias = plan.whole(layer.bias);
-      const GemmCall call{
-          .x = {plan.rows(op.x, rows)},
-          .weight = {{layer.weight.id, panel_bytes * static_cast<VkDeviceSize>(panel),
-                      panel_bytes * static_cast<VkDeviceSize>(panels)},
-                     layer.halves},
-          .bias = {bias},
-          .residual = {op.residual ? plan.rows(*op.residual, rows)
-                                   : (adds ? plan.zeros(layer.out) : bias)},
-          .y = {plan.rows(op.y, rows)}};
+      const GemmCall call{.x = {plan.rows(op.x, rows)},
+                          .weight = {weight},
+                          .bias = {bias},
+                          .residual = {op.residual ? plan.rows(*op.residual, rows)
+                                                   : (adds ? plan.zeros(layer.out) : bias)},
+                          .y = {plan.rows(op.y, rows)},
+                          .pairs = {weight}};
       plan.dispatch(
           call,
           {.lanes = plan.lanes(),
@@ -38,7 +38,8 @@ void record_simd_gemm(Plan& plan, const ops::Linear& op, const DenseLayer& layer
            .tile_columns = tile.columns,
            .unroll = tile.depth,
            .activation = static_cast<int>(op.activation),
-           .has_residual = adds ? 1 : 0},
+           .has_residual = adds ? 1 : 0,
+           .has_pairs = layer.pairs ? 1 : 0},
           {.row_quads = plan.pitch(op.y) / 4,
            .residual_quads = residual_pitch / 4,
            .first_quad = panel * kColumns / 4},
