@@ -5,7 +5,8 @@
 //             key_value  [keys, 4 key_value_stride]  f32, RGBA texels
 //             valid      [keys, 4]                   RGBA texels; column 3 below 0.5: left out
 //   out       result     [rows, 256]  f32
-//   dispatch  (rows / (lanes * queries) rounded up, 8 heads, 1), one subgroup a workgroup
+//   dispatch  (8 heads, rows / (lanes * queries) rounded up, 1), one subgroup a workgroup; rows last,
+//             so that what a core of a CPU driver reads is what it wrote before
 //   twin      engine/reference/attention.cpp; agrees to 1e-5 of the largest value
 //
 // A lane owns `queries` queries. Keys come in blocks of `block`: each lane fetches one key and its
@@ -44,8 +45,8 @@ vec4 from(vec4 held, uint holder) {
 
 void main() {
   int lane = int(gl_LocalInvocationID.x);
-  int head = int(gl_WorkGroupID.y) * kHeadTexels;
-  int first_row = int(gl_WorkGroupID.x) * lanes * queries + lane;
+  int head = int(gl_WorkGroupID.x) * kHeadTexels;
+  int first_row = int(gl_WorkGroupID.y) * lanes * queries + lane;
   // A subgroup of 128 spans two draws: each half takes its keys from lanes of its own half.
   uint group = lanes > kDrawRows ? uint(lane / kDrawRows * kDrawRows) : 0u;
 

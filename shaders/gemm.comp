@@ -11,8 +11,8 @@
 //             bias      [N]                 f32, as RGBA texels
 //             residual  [rows, N]           f32, as RGBA texels; may be y
 //   out       y         [rows, N]           f32
-//   dispatch  (rows / tile_rows, columns / (lanes * tile_columns), 1), one subgroup a workgroup; rows
-//             first, so that a core goes through the weights once
+//   dispatch  (64 / tile_rows, columns / (lanes * tile_columns), rows / 64), one subgroup a workgroup;
+//             draw by draw, so that what a core of a CPU driver reads is what it wrote before
 //   twin      engine/reference/linear.cpp; agrees to 2e-5 * sqrt(K / 256) of the largest output
 //
 // A lane owns tile_columns columns of all tile_rows rows, in fours that lie `lanes` apart. The rows
@@ -45,6 +45,7 @@ layout(binding = 4, std430) writeonly buffer Y { vec4 y[]; };
 layout(binding = 5) uniform usamplerBuffer pairs;
 
 const int quads = tile_columns / 4;
+const int kDrawRows = 64;
 const int kRowBlock = 4;  // rows that share a weight in registers
 const int row_texels = (tile_rows + lanes - 1) / lanes;  // a lane's share of a column of x's tile
 
@@ -62,8 +63,8 @@ vec4 second_of(uvec4 pair) {
 
 void main() {
   int lane = int(gl_LocalInvocationID.x);
-  int first_row = int(gl_WorkGroupID.x) * tile_rows;
-  int pitch = textureSize(x) / (int(gl_NumWorkGroups.x) * tile_rows);  // at least K / 4
+  int first_row = int(gl_WorkGroupID.z) * kDrawRows + int(gl_WorkGroupID.x) * tile_rows;
+  int pitch = textureSize(x) / (int(gl_NumWorkGroups.z) * kDrawRows);  // at least K / 4
   int panel = lanes * tile_columns;
   int texels = has_pairs != 0 ? 2 * textureSize(pairs) : textureSize(weight);
   int texels_a_row = texels / (int(gl_NumWorkGroups.y) * panel);  // K / 4

@@ -55,22 +55,21 @@ void record_attention(Plan& plan, const ops::Attention& op) {
         .valid = {by_draw_valid ? plan.rows(*op.key_valid, rows)
                                 : (op.key_valid ? plan.whole(*op.key_valid) : query)},
         .result = {plan.rows(op.out, rows)}};
-    plan.dispatch(
-        call,
-        {.lanes = lanes,
-         .queries = queries,
-         .block = std::min(kBlock, lanes),
-         .keys = op.per_draw ? ops::kRowsPerDraw : op.key_value.rows,
-         .per_draw = op.per_draw ? 1 : 0,
-         .has_valid = op.key_valid ? 1 : 0},
-        {.rows = rows.count,
-         .query_stride = plan.pitch(op.query) / 4,
-         .query_column = op.query_column / 4,
-         .key_value_stride = plan.pitch(op.key_value) / 4,
-         .key_column = op.key_column / 4,
-         .value_column = op.value_column / 4},
-        {static_cast<std::uint32_t>((rows.count + lanes * queries - 1) / (lanes * queries)),
-         ops::kHeads});
+    plan.dispatch(call,
+                  {.lanes = lanes,
+                   .queries = queries,
+                   .block = std::min(kBlock, lanes),
+                   .keys = op.per_draw ? ops::kRowsPerDraw : op.key_value.rows,
+                   .per_draw = op.per_draw ? 1 : 0,
+                   .has_valid = op.key_valid ? 1 : 0},
+                  {.rows = rows.count,
+                   .query_stride = plan.pitch(op.query) / 4,
+                   .query_column = op.query_column / 4,
+                   .key_value_stride = plan.pitch(op.key_value) / 4,
+                   .key_column = op.key_column / 4,
+                   .value_column = op.value_column / 4},
+                  {ops::kHeads, static_cast<std::uint32_t>((rows.count + lanes * queries - 1) /
+                                                           (lanes * queries))});
   }
 }
 

@@ -24,6 +24,7 @@ namespace flowdlo::vulkan {
 struct Groups {
   std::uint32_t x = 1;
   std::uint32_t y = 1;
+  std::uint32_t z = 1;
 };
 
 struct Dispatch {

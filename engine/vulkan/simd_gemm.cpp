@@ -31,20 +31,20 @@ void record_simd_gemm(Plan& plan, const ops::Linear& op, const DenseLayer& layer
                                                    : (adds ? plan.zeros(layer.out) : bias)},
                           .y = {plan.rows(op.y, rows)},
                           .pairs = {weight}};
-      plan.dispatch(
-          call,
-          {.lanes = plan.lanes(),
-           .tile_rows = tile.rows,
-           .tile_columns = tile.columns,
-           .unroll = tile.depth,
-           .activation = static_cast<int>(op.activation),
-           .has_residual = adds ? 1 : 0,
-           .has_pairs = layer.pairs ? 1 : 0},
-          {.row_quads = plan.pitch(op.y) / 4,
-           .residual_quads = residual_pitch / 4,
-           .first_quad = panel * kColumns / 4},
-          {static_cast<std::uint32_t>(rows.count / tile.rows),
-           static_cast<std::uint32_t>(panels * kColumns / (plan.lanes() * tile.columns))});
+      plan.dispatch(call,
+                    {.lanes = plan.lanes(),
+                     .tile_rows = tile.rows,
+                     .tile_columns = tile.columns,
+                     .unroll = tile.depth,
+                     .activation = static_cast<int>(op.activation),
+                     .has_residual = adds ? 1 : 0,
+                     .has_pairs = layer.pairs ? 1 : 0},
+                    {.row_quads = plan.pitch(op.y) / 4,
+                     .residual_quads = residual_pitch / 4,
+                     .first_quad = panel * kColumns / 4},
+                    {static_cast<std::uint32_t>(ops::kRowsPerDraw / tile.rows),
+                     static_cast<std::uint32_t>(panels * kColumns / (plan.lanes() * tile.columns)),
+                     static_cast<std::uint32_t>(rows.count / ops::kRowsPerDraw)});
     }
   }
 }
