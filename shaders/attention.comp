@@ -4,6 +4,7 @@
 //   in        query      [rows, 4 query_stride]      f32, RGBA texels
 //             key_value  [keys, 4 key_value_stride]  f32, RGBA texels
 //             valid      [keys, 4]                   RGBA texels; column 3 below 0.5: left out
+//                                                    (ones where all count, of the 64 keys of a draw)
 //   out       result     [rows, 256]  f32
 //   dispatch  (8 heads, rows / (lanes * queries) rounded up, 1), one subgroup a workgroup; rows last,
 //             so that what a core of a CPU driver reads is what it wrote before
@@ -22,9 +23,7 @@
 layout(constant_id = 0) const int lanes = 8;
 layout(constant_id = 1) const int queries = 4;   // a lane; lanes * queries at most 64, or 1
 layout(constant_id = 2) const int block = 4;     // keys; divides `lanes`
-layout(constant_id = 3) const int keys = 64;     // that a row sees
-layout(constant_id = 4) const int per_draw = 1;  // row r sees the 64 rows of draw r / 64
-layout(constant_id = 5) const int has_valid = 0;
+layout(constant_id = 3) const int few_keys = 0;  // that a row sees; 0: all of `valid`
 layout(local_size_x_id = 0) in;
 
 layout(push_constant) uniform Push { AttentionPush push; };
@@ -73,18 +72,22 @@ void main() {
     highest[i] = kLowest;
     weight_sum[i] = 0.0;
   }
-  int first_key = per_draw != 0 ? min(first_row, push.rows - 1) / kDrawRows * kDrawRows : 0;
+  int draw = min(first_row, push.rows - 1) / kDrawRows;
+  int first_key = draw * push.keys_a_draw;
+  int first_valid = draw * push.valid_a_draw;
+  // Not a specialisation constant: one kernel, 0.2 s of a CPU driver's compiler, serves both uses.
+  int keys = few_keys != 0 ? few_keys : textureSize(valid);
 
   for (int b = 0; b < keys; b += block) {
-    int key_row = first_key + b + lane / spread % block;
+    int key = b + lane / spread % block;
     vec4 k[share];
     vec4 v[share];
     [[unroll]] for (int c = 0; c < share; ++c) {
-      int texel = key_row * push.key_value_stride + head + lane % spread + c * spread;
+      int texel = (first_key + key) * push.key_value_stride + head + lane % spread + c * spread;
       k[c] = texelFetch(key_value, texel + push.key_column);
       v[c] = texelFetch(key_value, texel + push.value_column);
     }
-    float usable = has_valid != 0 ? texelFetch(valid, key_row).w : 1.0;
+    float usable = texelFetch(valid, first_valid + key).w;
 
     float score[queries * block];
     [[unroll]] for (int j = 0; j < block; ++j) {
@@ -95,11 +98,9 @@ void main() {
           score[i * block + j] += dot(q[i * kHeadTexels + c], key);
         }
       }
-      if (has_valid != 0) {
-        float seen = subgroupShuffle(usable, group + uint(j * spread));
-        [[unroll]] for (int i = 0; i < queries; ++i) {
-          score[i * block + j] = seen < 0.5 ? kLowest : score[i * block + j];
-        }
+      float seen = subgroupShuffle(usable, group + uint(j * spread));
+      [[unroll]] for (int i = 0; i < queries; ++i) {
+        score[i * block + j] = seen < 0.5 ? kLowest : score[i * block + j];
       }
     }
 
@@ -112,7 +113,7 @@ void main() {
       [[unroll]] for (int c = 0; c < kHeadTexels; ++c) total[i * kHeadTexels + c] *= shrink;
       [[unroll]] for (int j = 0; j < block; ++j) {
         float weight = exp(score[i * block + j] - top);
-        if (has_valid != 0) weight = score[i * block + j] > 0.5 * kLowest ? weight : 0.0;
+        weight = score[i * block + j] > 0.5 * kLowest ? weight : 0.0;
         score[i * block + j] = weight;
         weight_sum[i] += weight;
       }

@@ -121,9 +121,7 @@ struct AttentionCall {
     int lanes;
     int queries;
     int block;
-    int keys;
-    int per_draw;
-    int has_valid;
+    int few_keys;
   };
   using Push = AttentionPush;
   static constexpr bool kUsesSubgroups = true;

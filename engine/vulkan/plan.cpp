@@ -40,6 +40,13 @@ Range Plan::zeros(int columns) {
   return whole(*zeros_);
 }
 
+Range Plan::ones(int rows) {
+  const auto known = ones_.find(rows);
+  if (known != ones_.end()) return whole(known->second);
+  const std::vector<float> content(static_cast<std::size_t>(rows) * 4, 1.0F);
+  return whole(ones_.emplace(rows, tensor(Home::kDevice, "ones", rows, 4, content)).first->second);
+}
+
 int Plan::pitch(const ops::Tensor& tensor) const {
   const VkDeviceSize floats = whole(tensor).size / sizeof(float);
   return static_cast<int>(floats / static_cast<VkDeviceSize>(tensor.rows));
