@@ -118,8 +118,9 @@ void main() {
         weight_sum[i] += weight;
       }
     }
-    [[unroll]] for (int j = 0; j < block; ++j) {
-      [[unroll]] for (int c = 0; c < kHeadTexels; ++c) {
+    // Texel by texel: what is summed up stays in registers for all keys of the block.
+    [[unroll]] for (int c = 0; c < kHeadTexels; ++c) {
+      [[unroll]] for (int j = 0; j < block; ++j) {
         vec4 value = from(v, j, c, group);
         [[unroll]] for (int i = 0; i < queries; ++i) {
           total[i * kHeadTexels + c] += score[i * block + j] * value;
