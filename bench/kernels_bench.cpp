@@ -17,6 +17,7 @@
 #include "random/philox.hpp"
 #include "reference/program.hpp"
 #include "vulkan/backend.hpp"
+#include "weights/half.hpp"
 
 namespace flowdlo {
 namespace {
@@ -29,6 +30,14 @@ std::vector<float> noise(int rows, int columns, std::uint64_t seed, float scale 
   std::vector<float> values(static_cast<std::size_t>(rows) * static_cast<std::size_t>(columns));
   for (std::size_t i = 0; i < values.size(); ++i) {
     values[i] = scale * random::gaussian(seed, i / 4)[i % 4];
+  }
+  return values;
+}
+
+/// As the weights of a file: each value a half.
+std::vector<float> halves(std::vector<float> values) {
+  for (float& value : values) {
+    value = weights::half_to_float(weights::float_to_half(value));
   }
   return values;
 }
@@ -128,8 +137,9 @@ Subject gemm(int depth, int columns, ops::Activation activation = ops::Activatio
   return {kRows, columns, [=](ops::Program& program, ops::Tensor out, int repeats) {
             const float scale = 1.0F / std::sqrt(static_cast<float>(depth));
             const auto x = program.constant("x", kRows, depth, noise(kRows, depth, 1));
-            const auto layer = program.layer("layer", columns, depth,
-                                             noise(columns, depth, 2, scale), noise(1, columns, 3));
+            const auto layer =
+                program.layer("layer", columns, depth, halves(noise(columns, depth, 2, scale)),
+                              noise(1, columns, 3));
             for (int i = 0; i < repeats; ++i) {
               program.record(ops::Linear{
                   .x = x, .layer = layer, .y = out, .activation = activation, .residual = {}});

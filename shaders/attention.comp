@@ -4,12 +4,15 @@
 //   in        query      [rows, 4 query_stride]      f32, RGBA texels
 //             key_value  [keys, 4 key_value_stride]  f32, RGBA texels
 //             valid      [keys, 4]                   RGBA texels; column 3 below 0.5: left out
+//                                                    (ones where all count, of the 64 keys of a draw)
 //   out       result     [rows, 256]  f32
-//   dispatch  (rows / (lanes * queries) rounded up, 8 heads, 1), one subgroup a workgroup
+//   dispatch  (8 heads, rows / (lanes * queries) rounded up, 1), one subgroup a workgroup; rows last,
+//             so that what a core of a CPU driver reads is what it wrote before
 //   twin      engine/reference/attention.cpp; agrees to 1e-5 of the largest value
 //
-// A lane owns `queries` queries. Keys come in blocks of `block`: each lane fetches one key and its
-// value, shuffles hand them round. The softmax is online, rescaled once a block. Nothing waits.
+// A lane owns `queries` queries. Keys come in blocks of `block`, whose texels are spread over the
+// lanes: each fetches its share, shuffles hand them round. The softmax is online, rescaled once a
+// block. Nothing waits.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_KHR_shader_subgroup_basic : require
@@ -19,10 +22,8 @@
 
 layout(constant_id = 0) const int lanes = 8;
 layout(constant_id = 1) const int queries = 4;   // a lane; lanes * queries at most 64, or 1
-layout(constant_id = 2) const int block = 4;     // keys; at most `lanes`
-layout(constant_id = 3) const int keys = 64;     // that a row sees
-layout(constant_id = 4) const int per_draw = 1;  // row r sees the 64 rows of draw r / 64
-layout(constant_id = 5) const int has_valid = 0;
+layout(constant_id = 2) const int block = 4;     // keys; divides `lanes`
+layout(constant_id = 3) const int few_keys = 0;  // that a row sees; 0: all of `valid`
 layout(local_size_x_id = 0) in;
 
 layout(push_constant) uniform Push { AttentionPush push; };
@@ -37,15 +38,23 @@ const int kDrawRows = 64;
 const float kScale = 0.17677669529663687;  // 1 / sqrt(32)
 const float kLowest = -1e30;
 
-vec4 from(vec4 held, uint holder) {
-  return vec4(subgroupShuffle(held.x, holder), subgroupShuffle(held.y, holder),
-              subgroupShuffle(held.z, holder), subgroupShuffle(held.w, holder));
+// A block's texels of a head: lane l holds texel l % spread of key l / spread, then the one `spread`
+// texels on, and so forth.
+const int spread = lanes / block < kHeadTexels ? lanes / block : kHeadTexels;
+const int share = kHeadTexels / spread;
+
+// Texel c of key j of the block.
+vec4 from(vec4 held[share], int j, int c, uint group) {
+  vec4 texel = held[c / spread];
+  uint holder = group + uint(j * spread + c % spread);
+  return vec4(subgroupShuffle(texel.x, holder), subgroupShuffle(texel.y, holder),
+              subgroupShuffle(texel.z, holder), subgroupShuffle(texel.w, holder));
 }
 
 void main() {
   int lane = int(gl_LocalInvocationID.x);
-  int head = int(gl_WorkGroupID.y) * kHeadTexels;
-  int first_row = int(gl_WorkGroupID.x) * lanes * queries + lane;
+  int head = int(gl_WorkGroupID.x) * kHeadTexels;
+  int first_row = int(gl_WorkGroupID.y) * lanes * queries + lane;
   // A subgroup of 128 spans two draws: each half takes its keys from lanes of its own half.
   uint group = lanes > kDrawRows ? uint(lane / kDrawRows * kDrawRows) : 0u;
 
@@ -63,33 +72,35 @@ void main() {
     highest[i] = kLowest;
     weight_sum[i] = 0.0;
   }
-  int first_key = per_draw != 0 ? min(first_row, push.rows - 1) / kDrawRows * kDrawRows : 0;
+  int draw = min(first_row, push.rows - 1) / kDrawRows;
+  int first_key = draw * push.keys_a_draw;
+  int first_valid = draw * push.valid_a_draw;
+  // Not a specialisation constant: one kernel, 0.2 s of a CPU driver's compiler, serves both uses.
+  int keys = few_keys != 0 ? few_keys : textureSize(valid);
 
   for (int b = 0; b < keys; b += block) {
-    int key_row = first_key + b + lane % block;
-    vec4 k[kHeadTexels];
-    vec4 v[kHeadTexels];
-    [[unroll]] for (int c = 0; c < kHeadTexels; ++c) {
-      int texel = key_row * push.key_value_stride + head + c;
+    int key = b + lane / spread % block;
+    vec4 k[share];
+    vec4 v[share];
+    [[unroll]] for (int c = 0; c < share; ++c) {
+      int texel = (first_key + key) * push.key_value_stride + head + lane % spread + c * spread;
       k[c] = texelFetch(key_value, texel + push.key_column);
       v[c] = texelFetch(key_value, texel + push.value_column);
     }
-    float usable = has_valid != 0 ? texelFetch(valid, key_row).w : 1.0;
+    float usable = texelFetch(valid, first_valid + key).w;
 
     float score[queries * block];
     [[unroll]] for (int j = 0; j < block; ++j) {
       [[unroll]] for (int i = 0; i < queries; ++i) score[i * block + j] = 0.0;
       [[unroll]] for (int c = 0; c < kHeadTexels; ++c) {
-        vec4 key = from(k[c], group + uint(j));
+        vec4 key = from(k, j, c, group);
         [[unroll]] for (int i = 0; i < queries; ++i) {
           score[i * block + j] += dot(q[i * kHeadTexels + c], key);
         }
       }
-      if (has_valid != 0) {
-        float seen = subgroupShuffle(usable, group + uint(j));
-        [[unroll]] for (int i = 0; i < queries; ++i) {
-          score[i * block + j] = seen < 0.5 ? kLowest : score[i * block + j];
-        }
+      float seen = subgroupShuffle(usable, group + uint(j * spread));
+      [[unroll]] for (int i = 0; i < queries; ++i) {
+        score[i * block + j] = seen < 0.5 ? kLowest : score[i * block + j];
       }
     }
 
@@ -102,14 +113,15 @@ void main() {
       [[unroll]] for (int c = 0; c < kHeadTexels; ++c) total[i * kHeadTexels + c] *= shrink;
       [[unroll]] for (int j = 0; j < block; ++j) {
         float weight = exp(score[i * block + j] - top);
-        if (has_valid != 0) weight = score[i * block + j] > 0.5 * kLowest ? weight : 0.0;
+        weight = score[i * block + j] > 0.5 * kLowest ? weight : 0.0;
         score[i * block + j] = weight;
         weight_sum[i] += weight;
       }
     }
-    [[unroll]] for (int j = 0; j < block; ++j) {
-      [[unroll]] for (int c = 0; c < kHeadTexels; ++c) {
-        vec4 value = from(v[c], group + uint(j));
+    // Texel by texel: what is summed up stays in registers for all keys of the block.
+    [[unroll]] for (int c = 0; c < kHeadTexels; ++c) {
+      [[unroll]] for (int j = 0; j < block; ++j) {
+        vec4 value = from(v, j, c, group);
         [[unroll]] for (int i = 0; i < queries; ++i) {
           total[i * kHeadTexels + c] += score[i * block + j] * value;
         }

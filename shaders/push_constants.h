@@ -29,11 +29,13 @@ struct NarrowPush {
 
 struct AttentionPush {
   int rows;
-  int query_stride;  // in texels of four channels, like all below
+  int query_stride;  // in texels of four channels, like the next four
   int query_column;
   int key_value_stride;
   int key_column;
   int value_column;
+  int keys_a_draw;   // rows from one draw's keys to the next's; 0: all draws see the same
+  int valid_a_draw;  // the same of `valid`
 };
 
 struct FarthestPush {

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "flowdlo/devices.hpp"
+#include "wide_lavapipe.hpp"
 
 namespace flowdlo::tools {
 namespace {
@@ -88,6 +89,7 @@ void add_devices_command(CLI::App& app) {
   command->alias("doctor");
   command->add_flag("--json", *as_json, "Print JSON");
   command->callback([as_json] {
+    widen_lavapipe("vulkan");
     const auto survey = survey_devices(/*self_test=*/true);
     if (*as_json) {
       print_json(survey);

@@ -3,6 +3,8 @@
 #include <map>
 #include <string>
 
+#include "wide_lavapipe.hpp"
+
 namespace flowdlo::tools {
 namespace {
 
@@ -43,7 +45,8 @@ void add_model_options(CLI::App& command, Config& config) {
   command
       .add_option("--device", config.device,
                   "auto, vulkan, cpu, part of a device's name, or its UUID")
-      ->capture_default_str();
+      ->capture_default_str()
+      ->each(widen_lavapipe);
   auto* steps = command.add_option("--steps", config.euler_steps, "Euler steps of the model")
                     ->capture_default_str()
                     ->check(CLI::Range(1, 64));

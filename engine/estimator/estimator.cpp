@@ -279,8 +279,11 @@ Result<Estimate> Estimator::Impl::estimate(const Frame& frame, Tensors* tensors)
   const auto field = evidence::mask_field(frame);
   stage.lap(timings.mask_field_ms);
 
-  const auto prediction = sample(  // Eq. (3.26)-(3.29)
-      {.frame = frame, .cloud = conditions->cloud, .field = field, .draw_priors = draw_priors});
+  const auto prediction = sample({.frame = frame,  // Eq. (3.26)-(3.29)
+                                  .cloud = conditions->cloud,
+                                  .field = field,
+                                  .draw_priors = draw_priors,
+                                  .visible = &conditions->visible});
   if (!prediction) return prediction.error();
   timings.device_ms = sampler.stage_times_ms();
   stage.lap(timings.model_ms);

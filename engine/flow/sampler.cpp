@@ -47,6 +47,20 @@ Sampler::Sampler(WeightsSource weights, ProgramFactory factory, const SamplerCon
       config_(config),
       source_(gaussian_source(config.seed, config.draws)) {}
 
+/// P_obs [256, 4] as the model reads it: sampled from the cloud, or written by the host.
+ops::Tensor Sampler::declare_visible() {
+  ops::Program& program = *program_;
+  if (program.host_samples_points()) {
+    handles_.cloud.reset();
+    handles_.visible = program.input("visible", ops::kVisibleRows, 4);
+    return handles_.visible;
+  }
+  handles_.cloud = program.input("cloud", std::max(config_.capacity.cloud_points, 1), 4);
+  handles_.visible = program.output("visible", ops::kVisibleRows, 4);
+  // The device reads it every step: it stays in its own memory and is copied out at the end.
+  return program.scratch("visible", ops::kVisibleRows, 4);
+}
+
 Result<void> Sampler::build() {
   const auto weights = weights_();
   const auto& metadata = weights->metadata;
@@ -55,7 +69,6 @@ Result<void> Sampler::build() {
   program_ = factory_();
   ops::Program& program = *program_;
 
-  handles_.cloud = program.input("cloud", std::max(config_.capacity.cloud_points, 1), 4);
   handles_.params = program.input("params", 1, kParamsFloats);
   handles_.field = program.input("field", std::max(config_.capacity.field_texels, 1), 4);
   if (metadata.variant.local_channels == 8) {
@@ -63,18 +76,18 @@ Result<void> Sampler::build() {
   }
   handles_.draw_prior = program.input("draw_prior", rows, 4);
   handles_.source = program.input("source", rows, 4);
-  handles_.visible = program.output("visible", ops::kVisibleRows, 4);
+  const auto visible = declare_visible();
   handles_.norm = program.output("norm", 1, 4);
   handles_.prediction = program.output("prediction", rows, 4);
   const auto state = program.scratch("state", rows, 4);
-  // The device reads these every step: they stay in its own memory and are copied out at the end.
-  const auto visible = program.scratch("visible", ops::kVisibleRows, 4);
   const auto norm = program.scratch("norm", 1, 4);
 
   VelocityModel model(program, *weights, config_.draws, config_.steps);
-  program.stage("visible_points");
-  program.record(
-      ops::FarthestPoints{.cloud = handles_.cloud, .params = handles_.params, .visible = visible});
+  if (handles_.cloud) {
+    program.stage("visible_points");
+    program.record(ops::FarthestPoints{
+        .cloud = *handles_.cloud, .params = handles_.params, .visible = visible});
+  }
   program.stage("conditions");
   if (metadata.variant.normalization == weights::NormalizationKind::kFrame) {
     program.record(ops::FrameNormalization{.points = visible, .norm = norm});
@@ -94,7 +107,7 @@ Result<void> Sampler::build() {
   for (int k = 0; k < config_.steps; ++k) model.record_step(conditions, state, k);
   program.stage("results");
   program.record(ops::Denormalize{.state = state, .norm = norm, .out = handles_.prediction});
-  program.record(ops::Copy{.from = visible, .to = handles_.visible});
+  if (handles_.cloud) program.record(ops::Copy{.from = visible, .to = handles_.visible});
   program.record(ops::Copy{.from = norm, .to = handles_.norm});
 
   auto built = program.build();
@@ -120,8 +133,8 @@ Result<void> Sampler::ensure_capacity(const SampleInput& input) {
   const Capacity need = needed(input);
   Capacity& have = config_.capacity;
   const bool depth_fits = !handles_.depth || need.image_pixels <= have.image_pixels;
-  if (need.cloud_points <= have.cloud_points && need.field_texels <= have.field_texels &&
-      depth_fits) {
+  const bool cloud_fits = !handles_.cloud || need.cloud_points <= have.cloud_points;
+  if (cloud_fits && need.field_texels <= have.field_texels && depth_fits) {
     return {};
   }
   have = {.cloud_points = std::max(need.cloud_points, have.cloud_points),
@@ -131,17 +144,37 @@ Result<void> Sampler::ensure_capacity(const SampleInput& input) {
   return build();
 }
 
+void Sampler::write_cloud(const evidence::Cloud& cloud) {
+  staging_.clear();
+  for (const Point3& point : cloud.points_cam) {
+    staging_.insert(staging_.end(), {point.x, point.y, point.z, 0.0F});
+  }
+  program_->write(*handles_.cloud, staging_);
+}
+
+void Sampler::write_visible(const evidence::VisiblePoints& visible) {
+  visible_ = visible;
+  staging_.clear();
+  for (std::size_t i = 0; i < evidence::kVisiblePoints; ++i) {
+    const Point3& point = visible.points_cam[i];
+    staging_.insert(staging_.end(),
+                    {point.x, point.y, point.z, static_cast<float>(visible.valid[i])});
+  }
+  program_->write(handles_.visible, staging_);
+}
+
 void Sampler::write(const SampleInput& input) {
   const ops::FrameParams params = frame_params(input);
   std::array<float, kParamsFloats> words{};
   std::memcpy(words.data(), &params, sizeof(params));
   program_->write(handles_.params, words);
 
-  staging_.clear();
-  for (const Point3& point : input.cloud.points_cam) {
-    staging_.insert(staging_.end(), {point.x, point.y, point.z, 0.0F});
+  if (handles_.cloud) {
+    write_cloud(input.cloud);
+  } else {
+    write_visible(input.visible != nullptr ? *input.visible
+                                           : evidence::visible_points(input.cloud));
   }
-  program_->write(handles_.cloud, staging_);
   program_->write(handles_.field, input.field.texels);
   if (handles_.depth) program_->write(*handles_.depth, input.frame.depth_m);
 
@@ -175,6 +208,10 @@ Prediction Sampler::read(int point_count) const {
     }
   }
 
+  if (!handles_.cloud) {
+    prediction.visible = visible_;
+    return prediction;
+  }
   std::vector<float> visible(static_cast<std::size_t>(ops::kVisibleRows) * 4);
   program_->read(handles_.visible, visible);
   for (std::size_t i = 0; i < evidence::kVisiblePoints; ++i) {

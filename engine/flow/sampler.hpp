@@ -4,6 +4,7 @@
 #include <array>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -38,12 +39,14 @@ struct SampleInput {
   const evidence::Cloud& cloud;
   const evidence::MaskField& field;
   std::span<const prior::Prior> draw_priors;
+  /// Of the cloud, where the caller knows them already.
+  const evidence::VisiblePoints* visible = nullptr;
 };
 
 struct Prediction {
   std::vector<Centerline> draws;                   ///< [D, 64, 3] camera frame, metres
   std::vector<std::array<float, kNodes>> sigma_m;  ///< [D, 64]; empty without the fourth head
-  evidence::VisiblePoints visible;                 ///< P_obs as the back end sampled it
+  evidence::VisiblePoints visible;                 ///< P_obs as the back end used it
 };
 
 /// Makes empty programs on the back end of choice.
@@ -75,13 +78,13 @@ class Sampler {
 
  private:
   struct Handles {
-    ops::Tensor cloud;
+    std::optional<ops::Tensor> cloud;  ///< where the back end samples it
     ops::Tensor params;
     ops::Tensor field;
     std::optional<ops::Tensor> depth;
     ops::Tensor draw_prior;
     ops::Tensor source;
-    ops::Tensor visible;
+    ops::Tensor visible;  ///< an output, or an input where the host samples the cloud
     ops::Tensor norm;
     ops::Tensor prediction;
   };
@@ -89,7 +92,10 @@ class Sampler {
   Sampler(WeightsSource weights, ProgramFactory factory, const SamplerConfig& config);
   [[nodiscard]] Result<void> build();
   [[nodiscard]] Result<void> ensure_capacity(const SampleInput& input);
+  ops::Tensor declare_visible();
   void write(const SampleInput& input);
+  void write_cloud(const evidence::Cloud& cloud);
+  void write_visible(const evidence::VisiblePoints& visible);
   [[nodiscard]] Prediction read(int point_count) const;
 
   WeightsSource weights_;
@@ -99,7 +105,8 @@ class Sampler {
   std::vector<float> source_;
   std::unique_ptr<ops::Program> program_;
   Handles handles_;
-  std::vector<float> staging_;  // reused by every call
+  std::vector<float> staging_;       // reused by every call
+  evidence::VisiblePoints visible_;  // the last, where the host samples them
 };
 
 }  // namespace flowdlo::flow

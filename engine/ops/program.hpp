@@ -186,6 +186,10 @@ class Program {
   virtual LinearLayer layer(std::string_view name, int out, int in, std::span<const float> weight,
                             std::span<const float> bias) = 0;
 
+  /// Whether the host had better sample the visible points and write them as an input, since here
+  /// FarthestPoints takes longer than there. Both give the same bits.
+  [[nodiscard]] virtual bool host_samples_points() const { return false; }
+
   // Operations, in order of execution.
 
   virtual void record(const Linear& op) = 0;

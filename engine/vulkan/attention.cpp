@@ -38,6 +38,12 @@ bool sound(Plan& plan, const ops::Attention& op) {
   return fits;
 }
 
+/// Which of the keys that a row of `rows` sees count: the operation's own, or ones for all.
+Range valid_of(Plan& plan, const ops::Attention& op, Window rows) {
+  if (!op.key_valid) return plan.ones(op.per_draw ? ops::kRowsPerDraw : op.key_value.rows);
+  return op.per_draw ? plan.rows(*op.key_valid, rows) : plan.whole(*op.key_valid);
+}
+
 }  // namespace
 
 void record_attention(Plan& plan, const ops::Attention& op) {
@@ -48,29 +54,26 @@ void record_attention(Plan& plan, const ops::Attention& op) {
       op.per_draw ? std::max(plan.pitch(op.query), plan.pitch(op.key_value)) : plan.pitch(op.query);
   for (const Window rows : Plan::windows(op.query.rows, plan.most_texels() / (columns / 4))) {
     const Range query = plan.rows(op.query, rows);
-    const bool by_draw_valid = op.key_valid && op.per_draw;
     const AttentionCall call{
         .query = {query},
         .key_value = {op.per_draw ? plan.rows(op.key_value, rows) : plan.whole(op.key_value)},
-        .valid = {by_draw_valid ? plan.rows(*op.key_valid, rows)
-                                : (op.key_valid ? plan.whole(*op.key_valid) : query)},
+        .valid = {valid_of(plan, op, rows)},
         .result = {plan.rows(op.out, rows)}};
-    plan.dispatch(
-        call,
-        {.lanes = lanes,
-         .queries = queries,
-         .block = std::min(kBlock, lanes),
-         .keys = op.per_draw ? ops::kRowsPerDraw : op.key_value.rows,
-         .per_draw = op.per_draw ? 1 : 0,
-         .has_valid = op.key_valid ? 1 : 0},
-        {.rows = rows.count,
-         .query_stride = plan.pitch(op.query) / 4,
-         .query_column = op.query_column / 4,
-         .key_value_stride = plan.pitch(op.key_value) / 4,
-         .key_column = op.key_column / 4,
-         .value_column = op.value_column / 4},
-        {static_cast<std::uint32_t>((rows.count + lanes * queries - 1) / (lanes * queries)),
-         ops::kHeads});
+    plan.dispatch(call,
+                  {.lanes = lanes,
+                   .queries = queries,
+                   .block = std::min(kBlock, lanes),
+                   .few_keys = op.key_valid && op.per_draw ? ops::kRowsPerDraw : 0},
+                  {.rows = rows.count,
+                   .query_stride = plan.pitch(op.query) / 4,
+                   .query_column = op.query_column / 4,
+                   .key_value_stride = plan.pitch(op.key_value) / 4,
+                   .key_column = op.key_column / 4,
+                   .value_column = op.value_column / 4,
+                   .keys_a_draw = op.per_draw ? ops::kRowsPerDraw : 0,
+                   .valid_a_draw = op.per_draw && op.key_valid ? ops::kRowsPerDraw : 0},
+                  {ops::kHeads, static_cast<std::uint32_t>((rows.count + lanes * queries - 1) /
+                                                           (lanes * queries))});
   }
 }
 

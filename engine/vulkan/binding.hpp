@@ -16,7 +16,7 @@ struct Range {
 
 enum class BindingKind : std::uint8_t {
   kTexels,   ///< samplerBuffer of RGBA32F: the fast read on every driver
-  kHalves,   ///< samplerBuffer of RGBA16F
+  kWords,    ///< usamplerBuffer of RGBA32UI
   kScalars,  ///< samplerBuffer of R32F
   kStorage,  ///< std430 buffer
 };
@@ -37,12 +37,10 @@ struct Texels {
   }
 };
 
-/// Texels of f32 or of f16: the kernel does not see which.
-struct Weights {
+struct Words {
   Range range;
-  bool halves = false;
   operator Binding() const {  // NOLINT
-    return {halves ? BindingKind::kHalves : BindingKind::kTexels, true, false, range};
+    return {BindingKind::kWords, true, false, range};
   }
 };
 

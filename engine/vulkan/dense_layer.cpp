@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 #include <cassert>
 #include <cstring>
 
@@ -35,25 +36,21 @@ std::vector<float> padded(std::span<const float> values, int rows, int columns, 
   return result;
 }
 
-/// [out/panel][in/4][panel] fours of words.
-template <class Word, class Convert>
-std::vector<Word> in_panels(std::span<const float> weight, int out, int in, int panel,
-                            const Convert& convert) {
-  constexpr int kBlock = 8;  // columns read side by side: each stays in the cache
-  std::vector<Word> packed(weight.size());
-  for (int first = 0; first < out; first += kBlock) {
-    const std::size_t start = static_cast<std::size_t>(first / panel) * (in / 4) * panel;
-    Word* const to = packed.data() + (start + static_cast<std::size_t>(first % panel)) * 4;
-    const float* const from = weight.data() + static_cast<std::size_t>(first) * in;
-    for (int k = 0; k < in; k += 4) {
-      for (int column = 0; column < kBlock; ++column) {
-        const float* const four = from + static_cast<std::ptrdiff_t>(column) * in + k;
-        Word* const texel = to + (static_cast<std::ptrdiff_t>(k) / 4 * panel + column) * 4;
-        for (int i = 0; i < 4; ++i) texel[i] = convert(four[i]);
-      }
-    }
-  }
-  return packed;
+constexpr std::uint32_t kSignBit = 0x80000000U;
+constexpr std::uint32_t kSmallestOfPair = 0x30000000U;  // 2^-31
+constexpr std::uint32_t kBeyondPair = 0x40000000U;      // 2
+constexpr int kSpareBits = 13;                          // of a float's significand
+
+/// Two weights in a word: see first_of and second_of in the shader.
+std::uint32_t pair_of(float first, float second) {
+  const auto rest = [](float value) {
+    const std::uint32_t magnitude = std::bit_cast<std::uint32_t>(value) & ~kSignBit;
+    return std::max(magnitude, kSmallestOfPair) - kSmallestOfPair;
+  };
+  const std::uint32_t low = rest(second) >> kSpareBits;
+  return (std::bit_cast<std::uint32_t>(first) & kSignBit) | rest(first) |
+         (std::bit_cast<std::uint32_t>(second) & kSignBit) >> 1U | (low >> 13U) << 28U |
+         (low & 0x1FFFU);
 }
 
 /// Two halves in the place of each float.
@@ -66,12 +63,44 @@ std::vector<float> in_pairs(const std::vector<std::uint16_t>& halves) {
 }  // namespace
 
 std::vector<float> pack_panels(std::span<const float> weight, int out, int in, int panel) {
-  return in_panels<float>(weight, out, in, panel, [](float value) { return value; });
+  constexpr int kBlock = 8;  // columns read side by side: each stays in the cache
+  std::vector<float> packed(weight.size());
+  for (int first = 0; first < out; first += kBlock) {
+    const std::size_t start = static_cast<std::size_t>(first / panel) * (in / 4) * panel;
+    float* const to = packed.data() + (start + static_cast<std::size_t>(first % panel)) * 4;
+    const float* const from = weight.data() + static_cast<std::size_t>(first) * in;
+    for (int k = 0; k < in; k += 4) {
+      for (int column = 0; column < kBlock; ++column) {
+        const float* const four = from + static_cast<std::ptrdiff_t>(column) * in + k;
+        std::copy_n(four, 4, to + (static_cast<std::ptrdiff_t>(k) / 4 * panel + column) * 4);
+      }
+    }
+  }
+  return packed;
 }
 
-std::vector<float> pack_half_panels(std::span<const float> weight, int out, int in, int panel) {
-  assert(are_halves(weight));
-  return in_pairs(in_panels<std::uint16_t>(weight, out, in, panel, weights::exact_half));
+bool fit_pairs(std::span<const float> weight) {
+  bool all = true;
+  for (const float value : weight) {
+    const std::uint32_t bits = std::bit_cast<std::uint32_t>(value);
+    const std::uint32_t magnitude = bits & ~kSignBit;
+    const bool in_range = magnitude >= kSmallestOfPair && magnitude < kBeyondPair;
+    all &= magnitude == 0 || (in_range && bits << (32 - kSpareBits) == 0);
+  }
+  return all;
+}
+
+std::vector<float> pack_pairs(std::span<const float> weight, int out, int in, int panel) {
+  assert(fit_pairs(weight));
+  std::vector<float> packed = pack_panels(weight, out, in, panel);
+  for (std::size_t i = 0; i < packed.size() / 8; ++i) {
+    for (std::size_t k = 0; k < 4; ++k) {
+      packed[i * 4 + k] = std::bit_cast<float>(pair_of(packed[i * 8 + k], packed[i * 8 + 4 + k]));
+    }
+  }
+  packed.resize(packed.size() / 2);
+  packed.shrink_to_fit();
+  return packed;
 }
 
 std::vector<float> pack_halves(std::span<const float> weight) {
@@ -101,9 +130,9 @@ DenseLayer keep_layer(Plan& plan, std::string_view name, int out, int in,
   const int panel = plan.lanes() * plan.gemm().columns;
   switch (layer.packing) {
     case Packing::kPanels:
-      layer.halves = are_halves(weight);
-      layer.weight = layer.halves ? keep(out, in / 2, pack_half_panels(weight, out, in, panel))
-                                  : keep(out, in, pack_panels(weight, out, in, panel));
+      layer.pairs = fit_pairs(weight);
+      layer.weight = layer.pairs ? keep(out, in / 2, pack_pairs(weight, out, in, panel))
+                                 : keep(out, in, pack_panels(weight, out, in, panel));
       layer.bias = keep(1, out, {bias.begin(), bias.end()});
       break;
     case Packing::kRows:

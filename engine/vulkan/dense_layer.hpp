@@ -10,7 +10,8 @@
 namespace flowdlo::vulkan {
 
 enum class Packing {
-  kPanels,  ///< in a multiple of 16, out of 256: [out/P][in/4][P] texels, f32 or f16; gemm
+  kPanels,  ///< in a multiple of 16, out of 256: [out/P][in/4][P] texels, or half as many pairs;
+            ///< gemm
   kRows,    ///< the same, [out, in] as it is; tile_gemm
   kHalves,  ///< the same, [out, in] of f16; tile_gemm and matrix_gemm
   kNarrow,  ///< in at most 8, out 256: [256, 8], zeros from `in` on; narrow
@@ -22,7 +23,7 @@ struct DenseLayer {
   Packing packing = Packing::kNone;
   int in = 0;
   int out = 0;
-  bool halves = false;  ///< of kPanels: its texels are f16
+  bool pairs = false;  ///< of kPanels: a word holds two weights
   ops::Tensor weight;
   ops::Tensor bias;
 };
@@ -38,9 +39,14 @@ inline constexpr int kColumns = 256;  ///< gemm's kernels take columns of y in m
 [[nodiscard]] std::vector<float> pack_panels(std::span<const float> weight, int out, int in,
                                              int panel);
 
-/// The same of halves, two in the place of each float; every value is an f16.
-[[nodiscard]] std::vector<float> pack_half_panels(std::span<const float> weight, int out, int in,
-                                                  int panel);
+/// Whether every value fits half a word of pack_pairs: zero, or 11 significant bits and a magnitude
+/// of at least 2^-31 and below 2.
+[[nodiscard]] bool fit_pairs(std::span<const float> weight);
+
+/// The same of two columns a texel, each value in half a word, exact but for zero, which becomes
+/// 2^-31. All values fit; the shader gemm says which bits are whose.
+[[nodiscard]] std::vector<float> pack_pairs(std::span<const float> weight, int out, int in,
+                                            int panel);
 
 /// Two f16 in the place of each float, nearest even; `weight` has an even size.
 [[nodiscard]] std::vector<float> pack_halves(std::span<const float> weight);

@@ -22,8 +22,8 @@ VkFormat format_of(BindingKind kind) {
   switch (kind) {
     case BindingKind::kTexels:
       return VK_FORMAT_R32G32B32A32_SFLOAT;
-    case BindingKind::kHalves:
-      return VK_FORMAT_R16G16B16A16_SFLOAT;
+    case BindingKind::kWords:
+      return VK_FORMAT_R32G32B32A32_UINT;
     default:
       return VK_FORMAT_R32_SFLOAT;
   }

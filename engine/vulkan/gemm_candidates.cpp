@@ -9,12 +9,9 @@ namespace flowdlo::vulkan {
 namespace {
 
 // A CPU driver keeps the tile in its stack frame and likes it large, as long as one round of the
-// inner loop (at most 23 kB of code) fits into a core's instruction cache; a GPU keeps it in
+// inner loop (at most 25 kB of code) fits into a core's instruction cache; a GPU keeps it in
 // registers.
-constexpr GemmChoice kCpuSimd{GemmFamily::kSimd, 16, 8, 1};
-constexpr GemmChoice kWideCpuSimd{GemmFamily::kSimd, 32, 8, 1};
-// With 8 lanes 32 rows are 5 % faster, but a first start takes 0.5 s longer.
-constexpr int kManyLanes = 16;
+constexpr GemmChoice kCpuSimd{GemmFamily::kSimd, 32, 8, 1};
 constexpr GemmChoice kGpuSimd{GemmFamily::kSimd, 8, 4, 1};
 // 256 x 256 must still give each core of a GPU work: small tiles come first.
 constexpr std::array kTiles{GemmChoice{GemmFamily::kTile, 32, 32, 16},
@@ -57,7 +54,7 @@ int threads_of(const GemmChoice& choice, const PhysicalDevice& device) {
 std::vector<GemmChoice> gemm_candidates(const PhysicalDevice& device) {
   std::vector<GemmChoice> candidates;
   const bool is_cpu = device.report.kind == DeviceKind::kCpu;
-  if (is_cpu) add_simd(device, device.lanes < kManyLanes ? kCpuSimd : kWideCpuSimd, candidates);
+  if (is_cpu) add_simd(device, kCpuSimd, candidates);
   const bool has_matrices = device.matrix_edge > 0 && !shaders::matrix_gemm().words.empty();
   if (has_matrices && !is_cpu) {
     for (const GemmChoice& choice : kMatrices) {

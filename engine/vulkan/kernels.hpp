@@ -19,17 +19,21 @@ struct GemmCall {
     int unroll;
     int activation;
     int has_residual;
+    int has_pairs;
   };
   using Push = GemmPush;
   static constexpr bool kUsesSubgroups = true;
   static ShaderCode shader() { return shaders::gemm(); }
 
   Texels x;
-  Weights weight;
+  Texels weight;
   Texels bias;
   Texels residual;
   Writes y;
-  [[nodiscard]] std::array<Binding, 5> bindings() const { return {x, weight, bias, residual, y}; }
+  Words pairs;
+  [[nodiscard]] std::array<Binding, 6> bindings() const {
+    return {x, weight, bias, residual, y, pairs};
+  }
 };
 
 /// Of the kernels for GPUs: a row's floats lie side by side.
@@ -117,9 +121,7 @@ struct AttentionCall {
     int lanes;
     int queries;
     int block;
-    int keys;
-    int per_draw;
-    int has_valid;
+    int few_keys;
   };
   using Push = AttentionPush;
   static constexpr bool kUsesSubgroups = true;

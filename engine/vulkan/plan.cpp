@@ -7,10 +7,13 @@ namespace flowdlo::vulkan {
 namespace {
 
 // Rows of these many bytes begin in one and the same set of a first-level cache: the 32 rows that a
-// subgroup of gemm reads side by side would drive one another out. A line of 64 bytes between them
-// spreads them.
+// subgroup of gemm reads side by side would drive one another out. 256 bytes between them spread
+// them, and leave four draws the size that lavapipe takes for one of kView.
 constexpr int kSetBytes = 4096;
-constexpr int kGap = 16;
+constexpr int kGap = 64;
+// Lavapipe 22.3 compiles a kernel once for views whose size is a multiple of this and once more for
+// others, binding by binding: it takes bits of the size for something of a texture's.
+constexpr int kView = 65536;
 
 }  // namespace
 
@@ -30,8 +33,18 @@ ops::Tensor Plan::scratch(std::string_view name, int rows, int columns) {
 }
 
 Range Plan::zeros(int columns) {
-  if (!zeros_ || zeros_->columns < columns) zeros_ = tensor(Home::kDevice, "zeros", 1, columns);
+  constexpr int kColumns = kView / static_cast<int>(sizeof(float));
+  if (!zeros_ || zeros_->columns < columns) {
+    zeros_ = tensor(Home::kDevice, "zeros", 1, (columns + kColumns - 1) / kColumns * kColumns);
+  }
   return whole(*zeros_);
+}
+
+Range Plan::ones(int rows) {
+  const auto known = ones_.find(rows);
+  if (known != ones_.end()) return whole(known->second);
+  const std::vector<float> content(static_cast<std::size_t>(rows) * 4, 1.0F);
+  return whole(ones_.emplace(rows, tensor(Home::kDevice, "ones", rows, 4, content)).first->second);
 }
 
 int Plan::pitch(const ops::Tensor& tensor) const {

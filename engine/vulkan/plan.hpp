@@ -24,6 +24,7 @@ namespace flowdlo::vulkan {
 struct Groups {
   std::uint32_t x = 1;
   std::uint32_t y = 1;
+  std::uint32_t z = 1;
 };
 
 struct Dispatch {
@@ -70,6 +71,8 @@ class Plan {
   [[nodiscard]] ops::Tensor scratch(std::string_view name, int rows, int columns);
   /// At least that many zeros in a row: an addend for a kernel that wants one.
   [[nodiscard]] Range zeros(int columns);
+  /// Ones [rows, 4]: the validity of as many keys.
+  [[nodiscard]] Range ones(int rows);
   [[nodiscard]] Range whole(const ops::Tensor& tensor) const { return resources_.whole(tensor.id); }
   /// Floats from one row to the next.
   [[nodiscard]] int pitch(const ops::Tensor& tensor) const;
@@ -127,6 +130,7 @@ class Plan {
   bool chosen_ = false;
   Resources resources_;
   std::optional<ops::Tensor> zeros_;
+  std::map<int, ops::Tensor> ones_;  // by rows
   std::vector<KernelSpec> kernels_;
   std::map<std::string, std::size_t> kernel_index_;
   std::vector<Step> steps_;

@@ -41,6 +41,11 @@ class Program final : public ops::Program {
   ops::LinearLayer layer(std::string_view name, int out, int in, std::span<const float> weight,
                          std::span<const float> bias) override;
 
+  /// On CPU drivers: 257 dispatches there take longer than the sampling itself on the host.
+  [[nodiscard]] bool host_samples_points() const override {
+    return work_->device->facts().report.kind == DeviceKind::kCpu;
+  }
+
   void record(const ops::Linear& op) override;
   void record(const ops::Narrow& op) override;
   void record(const ops::LayerNorm& op) override;

@@ -31,7 +31,7 @@ class Recorder {
       const Resources::Place place = plan_.resources().place(*step.indirect);
       api.vkCmdDispatchIndirect(commands_, place.buffer, place.offset);
     } else {
-      api.vkCmdDispatch(commands_, step.groups.x, step.groups.y, 1);
+      api.vkCmdDispatch(commands_, step.groups.x, step.groups.y, step.groups.z);
     }
   }
 

@@ -59,8 +59,10 @@ Header header_for(const Device& device, std::string_view kind, const std::vector
 
 std::filesystem::path file_for(const Device& device, const std::filesystem::path& folder,
                                std::string_view kind) {
-  return folder / fmt::format("{}-{:08x}.{}", device.facts().report.uuid,
-                              device.facts().driver_version, kind);
+  // A CPU driver may have other lanes in the next process: what was found out of eight says nothing
+  // of sixteen.
+  return folder / fmt::format("{}-{:08x}-{}.{}", device.facts().report.uuid,
+                              device.facts().driver_version, device.facts().lanes, kind);
 }
 
 }  // namespace

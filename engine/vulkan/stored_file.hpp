@@ -11,7 +11,7 @@ namespace flowdlo::vulkan {
 
 /// The content that was stored for this device under `kind` ("pipelines", "gemm"). Empty where
 /// there is none, where the file is damaged, or where it was stored by another driver, driver
-/// version, FlowDLO version or set of shaders.
+/// version, number of lanes, FlowDLO version or set of shaders.
 [[nodiscard]] std::vector<char> read_stored(const Device& device,
                                             const std::filesystem::path& folder,
                                             std::string_view kind);

@@ -91,6 +91,26 @@ TEST_F(VulkanParity, EveryVariantAgreesWithin1e4OfTheNormalisedStateAfterTenStep
   std::printf("largest difference over all variants: %.2g of the normalised state\n", worst);
 }
 
+TEST_F(VulkanParity, TheHostSamplesThePointsOnCpuDriversAlone) {
+  const bool is_cpu = vulkan::report(*device()).kind == DeviceKind::kCpu;
+  EXPECT_EQ(on_device()()->host_samples_points(), is_cpu);
+}
+
+TEST_F(VulkanParity, PointsAreTheSameWhoeverSamplesThem) {
+  const WaveConditions conditions(1);
+  const auto known = evidence::visible_points(conditions.cloud);
+  auto sampler = testing::make_sampler({}, on_device(), conditions, 1);
+  flow::SampleInput input = conditions.input();
+  const auto sampled = sampler.sample(input);
+  input.visible = &known;
+  const auto given = sampler.sample(input);
+
+  ASSERT_TRUE(sampled && given);
+  EXPECT_EQ(sampled->visible.points_cam, known.points_cam);
+  EXPECT_EQ(given->visible.points_cam, known.points_cam);
+  EXPECT_EQ(sampled->draws, given->draws);
+}
+
 TEST_F(VulkanParity, OneSubmissionAFrame) {
   const WaveConditions conditions(4);
   auto sampler = testing::make_sampler({}, on_device(), conditions, kSteps);
