@@ -4,6 +4,8 @@
 #include <atomic>
 #include <cmath>
 #include <cstddef>
+#include <exception>
+#include <system_error>
 #include <thread>
 
 #include "estimator/confidence.hpp"
@@ -20,28 +22,42 @@ constexpr double kOddsScore = 1;    // score that makes a hypothesis e times as 
 
 using Reading = std::vector<Hypothesis>;  // what one reading brought forth, best first
 
-/// What each reading makes of the frame; nothing where it fails.
+/// What one reading makes of the frame; nothing where it fails. Throws nothing: what leaves a
+/// thread of its own would end the process.
+Reading read_as(path::Reading kind, const Conditions& conditions, const Frame& frame,
+                double rope_length_m, weights::PriorKind prior_kind) noexcept {
+  try {
+    const auto paths = path::trace_as(kind, frame, conditions.paths.rope_width_px,
+                                      {.rope_length_m = rope_length_m});
+    if (!paths) return {};
+    auto lifted = lift_all(*paths, conditions.cloud, conditions.visible, frame, prior_kind);
+    if (!lifted) return {};
+    if (lifted->size() > kOfEach) lifted->resize(kOfEach);
+    return *std::move(lifted);
+  } catch (const std::exception&) {
+    return {};
+  }
+}
+
+/// What each reading makes of the frame, those that fail left out.
 std::vector<Reading> read(const std::vector<path::Reading>& kinds, const Conditions& conditions,
-                          const Frame& frame, double rope_length_m, weights::PriorKind kind,
+                          const Frame& frame, double rope_length_m, weights::PriorKind prior_kind,
                           int threads) {
   std::vector<Reading> readings(kinds.size());
   std::atomic<std::size_t> next = 0;
   const auto work = [&] {
     for (std::size_t i = next++; i < kinds.size(); i = next++) {
-      const auto paths = path::trace_as(kinds[i], frame, conditions.paths.rope_width_px,
-                                        {.rope_length_m = rope_length_m});
-      if (!paths) continue;
-      auto lifted = lift_all(*paths, conditions.cloud, conditions.visible, frame, kind);
-      if (!lifted) continue;
-      if (lifted->size() > kOfEach) lifted->resize(kOfEach);
-      readings[i] = *std::move(lifted);
+      readings[i] = read_as(kinds[i], conditions, frame, rope_length_m, prior_kind);
     }
   };
   const std::size_t cores = std::max(1U, std::thread::hardware_concurrency());
   const std::size_t workers = threads > 0 ? static_cast<std::size_t>(threads) : cores;
   {
     std::vector<std::jthread> others;
-    while (others.size() + 1 < std::min(workers, kinds.size())) others.emplace_back(work);
+    try {
+      while (others.size() + 1 < std::min(workers, kinds.size())) others.emplace_back(work);
+    } catch (const std::system_error&) {  // no more threads to be had: those there are do it
+    }
     work();
   }
   std::erase_if(readings, [](const Reading& reading) { return reading.empty(); });
