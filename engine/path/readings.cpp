@@ -6,6 +6,7 @@
 #include <opencv2/imgproc.hpp>
 #include <string>
 
+#include "path/region.hpp"
 #include "path/window.hpp"
 
 namespace flowdlo::path {
@@ -100,15 +101,9 @@ Reread reread_as(Reading reading, const Frame& frame, const cv::Rect& box, float
   return reread;
 }
 
-cv::Rect mask_box(const Frame& frame) {
-  cv::Mat mask = mask_in(frame, {0, 0, frame.width, frame.height});
-  cv::threshold(mask, mask, 127, 255, cv::THRESH_BINARY);
-  return cv::boundingRect(mask);
-}
-
 Result<Traversals> trace_reread(Reading reading, const Frame& frame, float rope_width_px,
                                 const TraceConfig& config) {
-  const cv::Rect box = mask_box(frame);
+  const cv::Rect box = bounding_box(frame);
   if (reading == Reading::kAsGiven || box.empty()) return trace(frame, config);
   const Reread reread = reread_as(reading, frame, box, rope_width_px);
   auto result =

@@ -22,28 +22,6 @@ constexpr float kStubbyWidths = 30.0F;      // strands beside each other, when s
 constexpr float kThinnestPx = 3.0F;         // strands thinner than this stand no seam
 constexpr float kHighlightArea = 6.0F;      // and its area in width^2, at most
 
-cv::Rect bounding_box(const Frame& frame) {
-  int top = -1;
-  int bottom = -1;
-  int left = frame.width;
-  int right = -1;
-  for (int v = 0; v < frame.height; ++v) {
-    const std::uint8_t* row = frame.mask.data() + static_cast<std::size_t>(v) * frame.width;
-    const auto lit = [](std::uint8_t value) { return value > 127; };
-    const std::uint8_t* end = row + frame.width;
-    const std::uint8_t* first = std::find_if(row, end, lit);
-    if (first == end) continue;
-    const std::uint8_t* last = end - 1;
-    while (!lit(*last)) --last;
-    if (top < 0) top = v;
-    bottom = v;
-    left = std::min(left, static_cast<int>(first - row));
-    right = std::max(right, static_cast<int>(last - row));
-  }
-  if (top < 0) return {};
-  return {left, top, right - left + 1, bottom - top + 1};
-}
-
 cv::Mat crop(const Frame& frame, const cv::Rect& box) {
   cv::Mat mask = cv::Mat::zeros(box.height + 2 * kBorderPx, box.width + 2 * kBorderPx, CV_8U);
   for (int v = 0; v < box.height; ++v) {
@@ -213,6 +191,28 @@ bool fill_highlights(cv::Mat& mask, float width) {
 }
 
 }  // namespace
+
+cv::Rect bounding_box(const Frame& frame) {
+  int top = -1;
+  int bottom = -1;
+  int left = frame.width;
+  int right = -1;
+  for (int v = 0; v < frame.height; ++v) {
+    const std::uint8_t* row = frame.mask.data() + static_cast<std::size_t>(v) * frame.width;
+    const auto lit = [](std::uint8_t value) { return value > 127; };
+    const std::uint8_t* end = row + frame.width;
+    const std::uint8_t* first = std::find_if(row, end, lit);
+    if (first == end) continue;
+    const std::uint8_t* last = end - 1;
+    while (!lit(*last)) --last;
+    if (top < 0) top = v;
+    bottom = v;
+    left = std::min(left, static_cast<int>(first - row));
+    right = std::max(right, static_cast<int>(last - row));
+  }
+  if (top < 0) return {};
+  return {left, top, right - left + 1, bottom - top + 1};
+}
 
 bool lit(const cv::Mat& mask, const Eigen::Vector2f& p) {
   const auto u = static_cast<int>(std::lround(p.x()));

@@ -26,6 +26,9 @@ struct Region {
 /// Whether the pixel of `mask` nearest to `p` is set; false outside.
 [[nodiscard]] bool lit(const cv::Mat& mask, const Eigen::Vector2f& p);
 
+/// The smallest rectangle that holds the mask; empty without any.
+[[nodiscard]] cv::Rect bounding_box(const Frame& frame);
+
 /// Crops and cleans the mask. Fails with kNoPath when it is empty or holds specks only.
 [[nodiscard]] Result<Region> clean(const Frame& frame);
 
