@@ -81,15 +81,21 @@ void add_readings(const Candidate& candidate, Row<Size>& row) {
   row.add(static_cast<double>(candidate.odds));
 }
 
+/// By how much more of mask and depth `after` explains.
+template <std::size_t Size>
+void add_explained(const TubeScore& before, const TubeScore& after, Row<Size>& row) {
+  row.add(gained(before.mask_recall, after.mask_recall, 0.02));
+  row.add(gained(before.mask_recall, after.mask_recall, 0.2));
+  row.add(gained(before.mask_precision, after.mask_precision, 0.02));
+  row.add(gained(before.mask_precision, after.mask_precision, 0.2));
+  row.add(gained(before.depth_agreement, after.depth_agreement, 0.05));
+  row.add(gained(before.depth_agreement, after.depth_agreement, 0.5));
+}
+
 /// By how much it looks better, or only different, than another.
 template <std::size_t Size>
 void add_gains(const Candidate& before, const Candidate& after, Row<Size>& row) {
-  row.add(gained(before.tube.mask_recall, after.tube.mask_recall, 0.02));
-  row.add(gained(before.tube.mask_recall, after.tube.mask_recall, 0.2));
-  row.add(gained(before.tube.mask_precision, after.tube.mask_precision, 0.02));
-  row.add(gained(before.tube.mask_precision, after.tube.mask_precision, 0.2));
-  row.add(gained(before.tube.depth_agreement, after.tube.depth_agreement, 0.05));
-  row.add(gained(before.tube.depth_agreement, after.tube.depth_agreement, 0.5));
+  add_explained(before.tube, after.tube, row);
   row.add(gained(before.tube.crossing_agreement, after.tube.crossing_agreement, 0.3));
   row.add(gained(after.tube.bending, before.tube.bending, 2));
   row.add(gained(after.tube.overlap_share, before.tube.overlap_share, 0.3));
@@ -149,12 +155,7 @@ std::array<double, kDrawFeatures> draw_features(std::span<const Candidate> candi
   row.add(log_ratio(length_m(draw), length_m(prior), 0.2));
   row.add(std::abs(log_ratio(length_m(draw), length_m(prior), 0.2)));
   row.add(some(draw.behind, kMostBehind));
-  row.add(gained(prior.tube.mask_recall, draw.tube.mask_recall, 0.02));
-  row.add(gained(prior.tube.mask_recall, draw.tube.mask_recall, 0.2));
-  row.add(gained(prior.tube.mask_precision, draw.tube.mask_precision, 0.02));
-  row.add(gained(prior.tube.mask_precision, draw.tube.mask_precision, 0.2));
-  row.add(gained(prior.tube.depth_agreement, draw.tube.depth_agreement, 0.05));
-  row.add(gained(prior.tube.depth_agreement, draw.tube.depth_agreement, 0.5));
+  add_explained(prior.tube, draw.tube, row);
   row.add(gained(std::abs(draw.tube.depth_bias), std::abs(prior.tube.depth_bias), 0.5));
   row.add(gained(prior.tube.crossing_agreement, draw.tube.crossing_agreement, 0.3));
   row.add(gained(draw.tube.crossings, prior.tube.crossings, 2));
