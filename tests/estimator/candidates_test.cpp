@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <stdexcept>
 
+#include "gathered.hpp"
 #include "geometry/polyline.hpp"
 #include "support/wave_frame.hpp"
 
@@ -13,12 +13,6 @@ namespace {
 
 class ListCandidates : public ::testing::Test {
  protected:
-  [[nodiscard]] estimator::Conditions gathered() const {
-    Timings timings;
-    auto conditions = estimator::gather(frame_, 0, weights::PriorKind::kRefined, timings);
-    if (!conditions) throw std::runtime_error(conditions.error().message);
-    return *std::move(conditions);
-  }
   /// Draws that repeat the prior, with the model's sigma.
   [[nodiscard]] flow::Prediction draws(int count) const {
     flow::Prediction prediction;
@@ -39,7 +33,7 @@ class ListCandidates : public ::testing::Test {
 
   testing::WaveFrame wave_;
   Frame frame_ = wave_.frame();
-  estimator::Conditions conditions_ = gathered();
+  estimator::Conditions conditions_ = testing::gathered(frame_);
 };
 
 TEST_F(ListCandidates, PriorsComeFirstAndDrawsNameTheirHypothesis) {

@@ -2,8 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include <stdexcept>
-
+#include "gathered.hpp"
 #include "support/wave_frame.hpp"
 
 namespace flowdlo {
@@ -11,12 +10,6 @@ namespace {
 
 class LookAgain : public ::testing::Test {
  protected:
-  [[nodiscard]] estimator::Conditions gathered() const {
-    Timings timings;
-    auto conditions = estimator::gather(frame_, 0, weights::PriorKind::kRefined, timings);
-    if (!conditions) throw std::runtime_error(conditions.error().message);
-    return *std::move(conditions);
-  }
   [[nodiscard]] estimator::SecondLook look(int threads = 1) const {
     return estimator::look_again(conditions_, frame_, 0, weights::PriorKind::kRefined, threads);
   }
@@ -31,7 +24,7 @@ class LookAgain : public ::testing::Test {
 
   testing::WaveFrame wave_;
   Frame frame_ = wave_.frame();
-  estimator::Conditions conditions_ = gathered();
+  estimator::Conditions conditions_ = testing::gathered(frame_);
 };
 
 TEST_F(LookAgain, AClearFrameIsReadOnce) {
