@@ -2,30 +2,20 @@
 // at the start, with an instance and a device, and after one dispatch of the smallest kernel.
 //
 //   memory_floor [--device=NAME]
-#include <unistd.h>
-
 #include <array>
 #include <cstdio>
-#include <fstream>
 #include <string>
 
 #include "device_option.hpp"
 #include "ops/program.hpp"
+#include "resident_memory.hpp"
 #include "vulkan/backend.hpp"
 
 namespace flowdlo {
 namespace {
 
-double resident_mb() {
-  std::ifstream file("/proc/self/statm");
-  double pages = 0;
-  double resident_pages = 0;
-  file >> pages >> resident_pages;
-  return resident_pages * static_cast<double>(::sysconf(_SC_PAGESIZE)) / 1.0e6;
-}
-
 void print(const char* what, double since_mb) {
-  const double now_mb = resident_mb();
+  const double now_mb = tools::resident_mb();
   std::printf("%-24s %7.1f MB, %6.1f MB more than at the start\n", what, now_mb, now_mb - since_mb);
 }
 
@@ -40,7 +30,7 @@ Result<void> dispatch(const std::shared_ptr<vulkan::Device>& device) {
 }
 
 int measure(const std::string& wanted) {
-  const double start_mb = resident_mb();
+  const double start_mb = tools::resident_mb();
   print("start", start_mb);
   const auto device = vulkan::open_device({.wanted = wanted});
   if (!device) {

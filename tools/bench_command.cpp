@@ -2,14 +2,12 @@
 
 #include <fmt/format.h>
 #include <sys/resource.h>
-#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
 #include <memory>
 #include <system_error>
 #include <thread>
@@ -20,6 +18,7 @@
 #include "frame/staged_files.hpp"
 #include "model_options.hpp"
 #include "progress_bar.hpp"
+#include "resident_memory.hpp"
 
 namespace flowdlo::tools {
 namespace {
@@ -49,14 +48,6 @@ Result<fs::path> shipped_frame() {
   return Error{ErrorCode::kIo, fmt::format("bench: expected the frame that ships at {}, found "
                                            "none; name a frame folder: flowdlo bench FRAME",
                                            frame.string())};
-}
-
-double resident_mb() {
-  std::ifstream file("/proc/self/statm");
-  double pages = 0;
-  double resident_pages = 0;
-  file >> pages >> resident_pages;
-  return resident_pages * static_cast<double>(::sysconf(_SC_PAGESIZE)) / 1.0e6;
 }
 
 double peak_resident_mb() {

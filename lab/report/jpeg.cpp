@@ -1,37 +1,22 @@
 #include "report/jpeg.hpp"
 
-#include <csetjmp>
-#include <cstddef>
-#include <cstdio>   // jpeglib.h needs it before itself
 #include <cstdlib>  // std::free
 #include <opencv2/imgproc.hpp>
 
-#include <jpeglib.h>
+#include "jpeg_error_jump.hpp"
 
 namespace flowdlo::report {
 namespace {
 
-/// libjpeg's own handler ends the process; this one jumps back.
-struct Handler {
-  jpeg_error_mgr base;
-  std::jmp_buf back;
-
-  [[noreturn]] static void jump(j_common_ptr state) {
-    std::longjmp(reinterpret_cast<Handler*>(state->err)->back, 1);
-  }
-  static void ignore(j_common_ptr) {}
-};
-
 struct Encoder {
   jpeg_compress_struct state{};
-  Handler handler{};
+  tools::JpegErrorJump handler{};
   unsigned char* bytes = nullptr;
   unsigned long size = 0;  // NOLINT: libjpeg's type
 
   Encoder() {
-    state.err = jpeg_std_error(&handler.base);
-    handler.base.error_exit = Handler::jump;
-    handler.base.output_message = Handler::ignore;
+    handler.attach(state);
+    handler.base.output_message = [](j_common_ptr) {};
   }
   Encoder(const Encoder&) = delete;
   Encoder& operator=(const Encoder&) = delete;

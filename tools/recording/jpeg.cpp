@@ -1,41 +1,27 @@
 #include "recording/jpeg.hpp"
 
-#include <csetjmp>
-#include <cstddef>
-#include <cstdio>  // jpeglib.h needs it before itself
 #include <opencv2/imgproc.hpp>
 
-#include <jpeglib.h>
+#include "jpeg_error_jump.hpp"
 // after jpeglib.h
 #include <jerror.h>
 
 namespace flowdlo::recording {
 namespace {
 
-/// libjpeg's own handler ends the process; this one jumps back. A file that is cut short comes as a
-/// warning, and is an error here; what cameras get wrong otherwise is read over.
-struct Handler {
-  jpeg_error_mgr base;
-  std::jmp_buf back;
+/// A file that is cut short comes as a warning, and is an error here; what cameras get wrong
+/// otherwise is read over.
+void judge(j_common_ptr state, int level) {
+  if (level < 0 && state->err->msg_code == JWRN_JPEG_EOF) tools::JpegErrorJump::jump(state);
+}
 
-  [[noreturn]] static void jump(j_common_ptr state) {
-    std::longjmp(reinterpret_cast<Handler*>(state->err)->back, 1);
-  }
-  static void judge(j_common_ptr state, int level) {
-    if (level < 0 && state->err->msg_code == JWRN_JPEG_EOF) jump(state);
-  }
-};
-
-/// libjpeg jumps out of whatever fails: between setjmp and its return nothing may be alive that has
-/// a destructor.
 struct Decoder {
   jpeg_decompress_struct state{};
-  Handler handler{};
+  tools::JpegErrorJump handler{};
 
   Decoder() {
-    state.err = jpeg_std_error(&handler.base);
-    handler.base.error_exit = Handler::jump;
-    handler.base.emit_message = Handler::judge;
+    handler.attach(state);
+    handler.base.emit_message = judge;
   }
   Decoder(const Decoder&) = delete;
   Decoder& operator=(const Decoder&) = delete;
