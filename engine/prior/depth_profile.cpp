@@ -18,8 +18,11 @@ constexpr std::size_t kScatter = 2654435761U;  // 2^32 over the golden ratio
 /// The symmetric matrix of second and first differences plus a diagonal: bands 0, 1 and 2.
 class Pentadiagonal {
  public:
-  Pentadiagonal(std::size_t size, double stiffness, double tension) : bands_(size), factor_(size) {
+  Pentadiagonal(const std::vector<double>& slant, double whole_stiffness, double whole_tension)
+      : bands_(slant.size()), factor_(slant.size()) {
+    const std::size_t size = slant.size();
     for (std::size_t i = 0; i + 2 < size; ++i) {  // (1, -2, 1)
+      const double stiffness = whole_stiffness / slant[i + 1];
       bands_[i][0] += stiffness;
       bands_[i + 1][0] += 4 * stiffness;
       bands_[i + 2][0] += stiffness;
@@ -28,6 +31,7 @@ class Pentadiagonal {
       bands_[i][2] += stiffness;
     }
     for (std::size_t i = 0; i + 1 < size; ++i) {  // (-1, 1)
+      const double tension = whole_tension / slant[i];
       bands_[i][0] += tension;
       bands_[i + 1][0] += tension;
       bands_[i][1] -= tension;
@@ -101,15 +105,16 @@ std::vector<double> first_guess(int stations, std::span<const DepthClaim> claims
 
 /// From a sample scattered over the claims: a regular one would see the same place of every
 /// cross-section.
-double robust_sigma(std::span<const DepthClaim> claims, const std::vector<double>& profile) {
+double robust_sigma(std::span<const DepthClaim> claims, const std::vector<double>& profile,
+                    const std::vector<double>& slant) {
   std::vector<double> misfits;
   const std::size_t count = std::min(claims.size(), kScaleSample);
   for (std::size_t k = 0; k < count; ++k) {
     const std::size_t pick = count < claims.size() ? k * kScatter % claims.size() : k;
     const DepthClaim& claim = claims[pick];
     if (claim.weight <= 0) continue;
-    const double at = profile[static_cast<std::size_t>(claim.station)];
-    misfits.push_back(std::abs(static_cast<double>(claim.depth_m) - at));
+    const auto i = static_cast<std::size_t>(claim.station);
+    misfits.push_back(std::abs(static_cast<double>(claim.depth_m) - profile[i]) / slant[i]);
   }
   return misfits.empty() ? 0 : 1.4826 * median_of(misfits);
 }
@@ -128,7 +133,9 @@ std::vector<double> fit_profile(int stations, std::span<const DepthClaim> claims
   const double smoothing = std::max(1.0F, config.smoothing_stations);
   const double tension = std::max(smoothing, static_cast<double>(config.tension_stations));
   const double stiffness = std::pow(smoothing, 4);
-  Pentadiagonal system(n, stiffness, stiffness / (tension * tension));
+  std::vector<double> slant(config.slant.begin(), config.slant.end());
+  slant.resize(n, 1.0);
+  Pentadiagonal system(slant, stiffness, stiffness / (tension * tension));
   std::vector<double> profile(guess_m.begin(), guess_m.end());
   if (profile.empty()) profile = first_guess(stations, claims, config.smoothing_stations);
   const double share = 1 / std::max(1.0, static_cast<double>(config.claims_per_station));
@@ -137,7 +144,7 @@ std::vector<double> fit_profile(int stations, std::span<const DepthClaim> claims
   std::vector<double> right(n);
   for (int round = 0; round < kCauchyRounds + kTukeyRounds; ++round) {
     const bool tukey = round >= kCauchyRounds;
-    const double sigma = std::max(robust_sigma(claims, profile), 0.5 * forgiven);
+    const double sigma = std::max(robust_sigma(claims, profile, slant), 0.5 * forgiven);
     const double scale = (tukey ? kTukeySigmas : kCauchySigmas) * sigma;
     std::fill(weights.begin(), weights.end(), 0.0);
     std::fill(right.begin(), right.end(), 0.0);
@@ -145,7 +152,7 @@ std::vector<double> fit_profile(int stations, std::span<const DepthClaim> claims
       const auto i = static_cast<std::size_t>(claim.station);
       const double depth = static_cast<double>(claim.depth_m);
       const double weight = share * static_cast<double>(claim.weight) *
-                            robust_weight(depth - profile[i], scale, tukey);
+                            robust_weight((depth - profile[i]) / slant[i], scale, tukey);
       weights[i] += weight;
       right[i] += weight * depth;
     }

@@ -18,11 +18,16 @@ struct ProfileConfig {
   float tension_stations = 48;   ///< gaps longer than this are bridged by straight lines
   float claims_per_station = 8;  ///< what a well-seen station has
   float noise_m = 0.002F;        ///< misfit that is always forgiven
+  /// [stations] >= 1, or empty: 1 / sin of the angle between ray and rope. Where the rope runs
+  /// towards the camera a pixel is that much more rope: the same bend is more depth, and so is the
+  /// same error of the mask.
+  std::span<const float> slant{};
 };
 
 /// [stations] depth minimising
-///   sum w rho(z_i - claim) + stiffness sum (z_{i-1} - 2 z_i + z_{i+1})^2
-///                          + tension   sum (z_{i+1} - z_i)^2,
+///   sum w slant_i^2 rho((z_i - claim) / slant_i)
+///     + stiffness sum (z_{i-1} - 2 z_i + z_{i+1})^2 / slant_i
+///     + tension   sum (z_{i+1} - z_i)^2 / slant_i,
 /// rho Cauchy's, then Tukey's biweight: claims far from what most say count nothing. Beyond the
 /// outermost claims the profile goes on along its slope, which dies away over `tension_stations`.
 /// Starts from `guess_m` when it is not empty. Needs a claim of positive weight.

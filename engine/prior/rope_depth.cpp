@@ -25,7 +25,9 @@ constexpr float kSmoothWidths = 0.5F;  // see ProfileConfig
 constexpr float kLeastSmoothPx = 4.5F;
 constexpr float kTensionSmooths = 12.0F;
 constexpr double kLeastDepth_m = 1e-3;
-constexpr float kLeastSine = 0.35F;   // of ray and axis
+constexpr float kLeastSine = 0.25F;   // of ray and axis
+constexpr float kForgiven = 0.5F;     // radii of misfit
+constexpr int kSlantRounds = 2;       // a steeper axis lies deeper, and is steeper for it
 constexpr int kLeastVotes = 6;        // readings that tell which strand is above
 constexpr float kUnderWeight = 4.0F;  // stations' worth of evidence
 
@@ -52,9 +54,12 @@ class Measurement {
     radius_m_ = depth_radius_m(strip_, extent_, axis_m_, slant_, radius_m_);
     collect();
     fit(true);
-    incline();
-    fit(true);
+    for (int round = 0; round < kSlantRounds; ++round) {
+      incline();
+      fit(true);
+    }
     rope.axis_m = axis_m_;
+    rope.slant = slant_;
     rope.radius_m = radius_m_;
     describe(rope);
     return rope;
@@ -121,7 +126,8 @@ class Measurement {
                           {.smoothing_stations = smooth,
                            .tension_stations = kTensionSmooths * smooth,
                            .claims_per_station = kCore * std::min(strip_.width_px, 10.0F),
-                           .noise_m = 0.35F * radius_m_});
+                           .noise_m = kForgiven * radius_m_,
+                           .slant = slant_});
     for (double& z : axis_m_) z = std::max(z, kLeastDepth_m);  // where it goes on beyond all depths
   }
 
@@ -212,8 +218,8 @@ class Measurement {
       }
       const float claim =
           reading.depth_m + push_m(reading.station, reading.offset_px, reading.depth_m);
-      const float misfit =
-          std::abs(claim - static_cast<float>(axis_m_[static_cast<std::size_t>(reading.station)]));
+      const auto i = static_cast<std::size_t>(reading.station);
+      const float misfit = std::abs(claim - static_cast<float>(axis_m_[i])) / slant_[i];
       misfits.push_back(misfit);
       backs += misfit < radius_m_ ? 1 : 0;
     }

@@ -2,8 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
+#include <vector>
 
 namespace flowdlo::prior {
 namespace {
@@ -65,6 +67,30 @@ TEST(FitProfile, GoesOnBeyondTheLastClaimAlongADyingSlope) {
 TEST(FitProfile, IsConstantThroughASingleClaim) {
   const std::vector<DepthClaim> claims{{200, 0.7F, 1}};
   for (const double z : fit_profile(kStations, claims, {}, {})) EXPECT_NEAR(z, 0.7, 1e-5);
+}
+
+TEST(FitProfile, BendsMoreWhereTheRopeRunsTowardsTheCamera) {  // a corner at station 200
+  auto claims = claims_on_line(0, kStations, 0);
+  for (DepthClaim& claim : claims) {
+    claim.depth_m += 2e-3F * static_cast<float>(std::max(claim.station - 200, 0));
+  }
+  const std::vector<float> steep(kStations, 4.0F);
+  const auto usual = fit_profile(kStations, claims, {}, {});
+  const auto slanted = fit_profile(kStations, claims, {}, {.slant = steep});
+  EXPECT_GT(usual[200], 0.503);
+  EXPECT_LT(slanted[200] - 0.5, 0.75 * (usual[200] - 0.5));
+}
+
+TEST(FitProfile, ForgivesMoreWhereTheRopeRunsTowardsTheCamera) {  // every fourth is off
+  auto claims = claims_on_line(0, kStations, 0, 0.001F);
+  for (std::size_t k = 0; k < claims.size(); ++k) {
+    const bool off = claims[k].station >= 300 && k % 4 == 0;
+    if (off) claims[k].depth_m += 0.01F;
+  }
+  std::vector<float> slant(kStations, 1.0F);
+  std::fill(slant.begin() + 300, slant.end(), 4.0F);
+  EXPECT_LT(fit_profile(kStations, claims, {}, {})[360], 0.5005);
+  EXPECT_GT(fit_profile(kStations, claims, {}, {.slant = slant})[360], 0.501);
 }
 
 TEST(FitProfile, WorksOnTwoStations) {
