@@ -21,11 +21,14 @@ constexpr float kGapGrowth = 0.25F;
 constexpr float kHiddenGrowth = 0.4F;  // under another strand
 constexpr float kMostSigma_m = 1.0F;
 // Where an end may be: that far from where it seems.
-constexpr float kTipRadii = 0.25F;
-constexpr float kTipPixels = 0.4F;
+constexpr float kTipPixels = 0.3F;
+constexpr float kTipSlant = 0.3F;        // radii more of the cap, towards the camera
+constexpr float kTipFray = 1.5F;         // of the deviation of the mask's width
 constexpr float kCoveredTip_m = 0.009F;  // the rope goes on under what covers it, or does not
 constexpr float kOutsideTip_m = 0.03F;   // it goes on outside of the image
 constexpr float kOutsidePx = 3.0F;
+constexpr float kGridPx = 0.45F;    // deviation that the pixel grid makes
+constexpr float kOfMedian = 1.21F;  // 1.4826 / sqrt(1.5): what three places differ by
 // Metres a metre of rope that is not seen is longer or shorter.
 constexpr float kMaskedStretch = 0.08F;
 constexpr float kGapStretch = 0.15F;
@@ -47,14 +50,38 @@ std::vector<float> unseen_growth(std::span<const Vector3f> points, const Strip& 
   return growth;
 }
 
-float tip_doubt_m(const Placed& placed, bool front) {
+/// Of the mask's, from one place to the next, beyond what the pixel grid makes: how frayed it is.
+float deviation_of_width_px(const Strip& strip) {
+  const auto apart = static_cast<std::size_t>(
+      std::max(1.0F, std::round(strip.width_px / std::max(strip.step_px, 1e-3F))));
+  const auto clear = [&](std::size_t i) {
+    return strip.stations[i].bounded && strip.neighbour[i] < 0;
+  };
+  const auto wide = [&](std::size_t i) {
+    return strip.stations[i].left_px + strip.stations[i].right_px;
+  };
+  std::vector<float> bends;
+  for (std::size_t i = apart; i + apart < strip.stations.size(); ++i) {
+    if (!clear(i - apart) || !clear(i) || !clear(i + apart)) continue;
+    bends.push_back(std::abs(wide(i) - 0.5F * (wide(i - apart) + wide(i + apart))));
+  }
+  if (bends.empty()) return 0;
+  const auto middle = bends.begin() + static_cast<std::ptrdiff_t>(bends.size() / 2);
+  std::nth_element(bends.begin(), middle, bends.end());
+  const float fray = kOfMedian * *middle;
+  return std::sqrt(std::max(0.0F, fray * fray - kGridPx * kGridPx));
+}
+
+float tip_doubt_m(const Placed& placed, float fray_px, bool front) {
   const Strip& strip = placed.strip;
   const Station& end = front ? strip.stations.front() : strip.stations.back();
-  const bool tip = front ? placed.extent.begin_px > 0
-                         : placed.extent.end_px < strip.stations.back().arclength_px;
   const double axis_m = front ? placed.rope.axis_m.front() : placed.rope.axis_m.back();
-  if (tip) {
-    return kTipRadii * placed.rope.radius_m + kTipPixels * static_cast<float>(axis_m) * end.aside;
+  if (placed.extent.tip[front ? 0 : 1]) {
+    const float slant = front ? placed.rope.slant.front() : placed.rope.slant.back();
+    const float pixel_m = static_cast<float>(axis_m) * end.aside;
+    const float cap = std::hypot(placed.extent.cap_doubt, kTipSlant * (slant - 1));
+    return slant * std::hypot(cap * placed.rope.radius_m, kTipPixels * pixel_m,
+                              kTipFray * fray_px * pixel_m);
   }
   const Vector2f p = end.point_px;
   const Vector2f last{static_cast<float>(placed.frame.width - 1),
@@ -104,8 +131,9 @@ std::vector<float> station_sigma_m(std::span<const Vector3f> points_cam, const S
 }
 
 void doubt_along(const Placed& placed, std::span<const float> node_arclength_px, Prior& prior) {
-  const float first_m = tip_doubt_m(placed, true);
-  const float last_m = tip_doubt_m(placed, false);
+  const float fray_px = deviation_of_width_px(placed.strip);
+  const float first_m = tip_doubt_m(placed, fray_px, true);
+  const float last_m = tip_doubt_m(placed, fray_px, false);
   const std::vector<Slack> stretches = slacks(placed, node_arclength_px, prior);
   for (std::size_t i = 0; i < kNodes; ++i) {
     const float t = static_cast<float>(i) / (kNodes - 1);

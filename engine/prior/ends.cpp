@@ -47,6 +47,11 @@ constexpr float kFineRound = 0.84F;
 constexpr float kFineSquare = 0.92F;
 constexpr float kFinePx = 10.0F;
 constexpr float kUnknownCap = 0.5F;  // of half a width: off by a quarter at most, round or square
+// Radii of deviation: of a fine mask's round tips, of its others, and of those of coarse masks.
+constexpr float kRoundDoubt = 0.12F;
+constexpr float kFineDoubt = 0.36F;
+constexpr float kCoarseDoubt = 0.42F;
+constexpr float kSurelyRound = 0.9F;
 
 std::size_t pixel(const Frame& frame, const Vector2f& p) {
   return static_cast<std::size_t>(std::floor(p.y() + 0.5F)) * frame.width +
@@ -289,12 +294,14 @@ std::vector<Vector2f> to_the_tips(std::span<const Vector2f> path_px, float width
 Extent without_caps(const Strip& strip, const Frame& frame) {
   const float whole = static_cast<float>(strip.stations.size() - 1) * strip.step_px;
   std::array<float, 2> half_px{0, 0};
+  std::array<bool, 2> tip{};
   float fill = 0;
   float width_px = 0;
   int told = 0;
   for (const std::size_t side : {0U, 1U}) {
     const StripEnd end(strip, side == 0);
-    if (!end.free(frame)) continue;
+    tip[side] = end.free(frame);
+    if (!tip[side]) continue;
     half_px[side] = end.half_px(strip.width_px);
     const float filled = end.fill(half_px[side]);
     if (filled < 0 || 2 * half_px[side] < kTellingPx) continue;
@@ -307,10 +314,12 @@ Extent without_caps(const Strip& strip, const Frame& frame) {
   const float round = told > 0 ? roundness(fill / count, width_px / count) : kUnknownCap;
   std::array<float, 2> cap_px{0, 0};
   for (const std::size_t side : {0U, 1U}) {
-    if (half_px[side] <= 0) continue;
+    if (!tip[side]) continue;
     cap_px[side] = round * std::clamp(half_px[side] - 0.5F * kEdgePx, 0.0F, kMostShare * whole);
   }
-  return {cap_px[0], whole - cap_px[1]};
+  const bool fine = told > 0 && width_px / count >= kFinePx;
+  const float doubt = round > kSurelyRound ? kRoundDoubt : kFineDoubt;
+  return {cap_px[0], whole - cap_px[1], tip, fine ? doubt : kCoarseDoubt};
 }
 
 Extent without_hidden_ends(const Strip& strip, const Extent& extent,
@@ -325,8 +334,8 @@ Extent without_hidden_ends(const Strip& strip, const Extent& extent,
       if (seen[i] != 0 || strip.neighbour[i] < 0) break;
     }
     const float reach = static_cast<float>(hidden) * strip.step_px;
-    const bool capped = front ? extent.begin_px > 0 : extent.end_px < whole;  // in plain sight
-    if (capped || hidden == count || reach > kMostHiddenWidths * strip.width_px) continue;
+    const bool sure = extent.tip[front ? 0 : 1];
+    if (sure || hidden == count || reach > kMostHiddenWidths * strip.width_px) continue;
     (front ? result.begin_px : result.end_px) = front ? reach : whole - reach;
   }
   return result.begin_px < result.end_px ? result : extent;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -14,6 +15,8 @@ namespace flowdlo::prior {
 struct Extent {
   float begin_px = 0;
   float end_px = 0;
+  std::array<bool, 2> tip{};  ///< of the begin and of the end: in plain sight, a cap or a cut
+  float cap_doubt = 0.5F;     ///< radii that a tip in plain sight may be off, its shape unknown
 
   [[nodiscard]] bool holds(const Station& station) const {
     return begin_px <= station.arclength_px && station.arclength_px <= end_px;
@@ -28,8 +31,8 @@ struct Extent {
 
 /// The strip without the rope's caps: the mask of a rope with round ends reaches half a width
 /// beyond its centerline, that of a rope cut off square does not; half of that where the mask does
-/// not tell. Ends that are no tips (at the
-/// image's border, on another strand, where the mask goes on) stay where they are.
+/// not tell. Ends that are no tips (at the image's border, on another strand, where the mask goes
+/// on) stay where they are.
 [[nodiscard]] Extent without_caps(const Strip& strip, const Frame& frame);
 
 /// `extent` without what of its ends lies behind another strand: nobody knows how far the rope goes

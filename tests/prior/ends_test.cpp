@@ -62,6 +62,7 @@ TEST(WithoutCaps, TakesNothingOffASquareTip) {
   const Extent extent = without_caps(strip, sheet.frame());
   EXPECT_EQ(extent.begin_px, 0);
   EXPECT_EQ(extent.end_px, strip.stations.back().arclength_px);
+  EXPECT_TRUE(extent.tip[0] && extent.tip[1]);
 }
 
 TEST(WithoutCaps, TakesNothingOffWhereTheMaskGoesOn) {
@@ -70,6 +71,7 @@ TEST(WithoutCaps, TakesNothingOffWhereTheMaskGoesOn) {
   const Extent extent = without_caps(strip, sheet.frame());
   EXPECT_EQ(extent.begin_px, 0);
   EXPECT_EQ(extent.end_px, strip.stations.back().arclength_px);
+  EXPECT_FALSE(extent.tip[0] || extent.tip[1]);
 }
 
 // The rope comes from the left and ends somewhere behind the strand along u = 160, which is nearer.

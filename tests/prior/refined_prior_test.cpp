@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <random>
+#include <vector>
 
 #include "geometry/polyline.hpp"
 #include "prior/drawn_rope.hpp"
@@ -48,6 +49,16 @@ TEST(Refine, PutsNodesOnTheAxisOfATubeSeenFaceOn) {
 TEST(Refine, PutsNodesOnTheAxisOfATubeThatRunsTowardsTheCamera) {  // at 45 degrees
   const DrawnRope rope = draw_rope({{-0.15, 0, 0.75}, {0.1, 0.02, 0.5}});
   EXPECT_LT(farthest(refined(rope), rope.curve), 0.15 * kRadius_m);
+}
+
+// Turns until it runs at 74 degrees to the image: the axis lies 3 radii and more behind the surface.
+TEST(Refine, PutsNodesOnTheAxisOfATubeThatTurnsAwayFromTheCamera) {
+  lab::Curve3 curve{{-0.1, 0, 0.42}};
+  for (double turn = 0; turn <= 1.3; turn += 0.02) {
+    curve.push_back(curve.back() + 0.006 * Eigen::Vector3d(std::cos(turn), 0.1, std::sin(turn)));
+  }
+  const DrawnRope rope = draw_rope(curve);
+  EXPECT_LT(farthest(refined(rope), rope.curve), 0.5 * kRadius_m);
 }
 
 TEST(Refine, PutsNodesOnTheAxisNearTheImagesCorner) {
@@ -303,6 +314,46 @@ TEST(Refine, GivesASigmaThatGrowsFromWhatIsSeen) {
   for (std::size_t i = 40; i + 1 < prior.nodes.size(); ++i) {
     EXPECT_LT(prior.sigma_m[i], prior.sigma_m[i + 1]) << "node " << i;
   }
+}
+
+TEST(Refine, IsAsSureOfASquareTipAsOfARoundOne) {
+  DrawnRope rope = draw_rope(straight_line());
+  const float round_m = refined(rope).sigma_m.front();
+  for (int v = 0; v < rope.image.height; ++v) {
+    for (int u = 0; u < rope.image.width; ++u) {
+      if (u >= 150 && u <= 490) continue;
+      rope.image.mask[rope.index(u, v)] = 0;
+      rope.image.depth_m[rope.index(u, v)] = 2;
+    }
+  }
+  rope.path.points_px = {{150, 236.6F}, {490, 243.4F}};
+  const Prior square = refined(rope);
+  EXPECT_LT(round_m, 0.3 * kRadius_m);
+  EXPECT_LT(square.sigma_m.front(), 0.6 * kRadius_m);
+  EXPECT_LT(square.sigma_m.back(), 0.6 * kRadius_m);
+}
+
+TEST(Refine, DoubtsATipThatPointsAwayFromTheCamera) {  // both in plain sight
+  const Prior across = refined(draw_rope(straight_line()));
+  const Prior away = refined(draw_rope({{-0.12, 0.02, 0.75}, {0.06, 0.03, 0.45}}));
+  EXPECT_GT(away.sigma_m.front(), 2 * across.sigma_m.front());
+}
+
+TEST(Refine, DoubtsTheTipsOfAFrayedMask) {
+  DrawnRope rope = draw_rope(straight_line());
+  const float clean_m = refined(rope).sigma_m.front();
+  for (int u = 0; u < rope.image.width; ++u) {  // 10 px a wave, up to 3 px to both sides
+    const int reach = static_cast<int>(std::lround(1.5 * (1 + std::sin(0.6 * u))));
+    std::vector<std::uint8_t> column;
+    for (int v = 0; v < rope.image.height; ++v) column.push_back(rope.image.mask[rope.index(u, v)]);
+    for (int v = reach; v + reach < rope.image.height; ++v) {
+      for (int off = -reach; off <= reach; ++off) {
+        if (column[static_cast<std::size_t>(v + off)] > 127)
+          rope.image.mask[rope.index(u, v)] = 255;
+      }
+    }
+  }
+  EXPECT_GT(refined(rope).sigma_m.front(), 1.5 * clean_m);
 }
 
 TEST(Refine, DoubtsTheNodesNearAnEndOutsideOfTheImage) {
