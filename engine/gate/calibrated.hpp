@@ -26,7 +26,7 @@ struct GateWeights {
   Network<kHypothesisFeatures, 1> hypothesis;  ///< score of what a hypothesis would return
   double hypothesis_margin = 0;  ///< score by which a runner-up has to beat the best hypothesis
   Network<kClosenessFeatures, 1> closeness;  ///< log odds that the winner is close
-  Network<kNodeFeatures, NodeError::kNumbers> node_error;
+  Network<kNodeFeatures, NodeError::kNumbers, 16> node_error;
   double sigma_share = 0;  ///< probability of being off by less than two sigma_m
 };
 

@@ -1,10 +1,12 @@
 #include "gate/node_features.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
 #include "gate/candidate_features.hpp"
+#include "geometry/camera.hpp"
 #include "geometry/polyline.hpp"
 
 namespace flowdlo::gate {
@@ -17,8 +19,9 @@ constexpr double kLeastNoise_m = 1e-4;
 constexpr double kLeastUnseen_m = 1e-3;
 constexpr double kMost_m = 100;
 constexpr double kMostLogit = 6;
-constexpr double kSure = 2;         // logit above which there is no doubt to speak of
-constexpr std::size_t kOfNode = 7;  // features that differ from node to node, after the first
+constexpr double kSure = 2;          // logit above which there is no doubt to speak of
+constexpr std::size_t kOfNode = 10;  // features that differ from node to node, after the first
+constexpr double kLeastSine = 0.1;
 
 double log_m(double length_m, double least_m) {
   if (!std::isfinite(length_m)) return std::log(kMost_m / kUnit_m);
@@ -46,6 +49,16 @@ std::vector<double> odds(std::span<const double> scores) {
   for (const double score : scores) sum += result.emplace_back(std::exp(score - most));
   for (double& value : result) value /= sum;
   return result;
+}
+
+/// Of the angle between the ray through a node and the rope there.
+double sine(const Centerline& nodes, std::size_t node) {
+  const Eigen::Vector3f ray = geometry::to_eigen(nodes[node]);
+  const Eigen::Vector3f along =
+      geometry::to_eigen(nodes[std::min<std::size_t>(node + 1, kNodes - 1)]) -
+      geometry::to_eigen(nodes[node > 0 ? node - 1 : 0]);
+  const float value = along.cross(ray).norm() / (along.norm() * ray.norm());
+  return std::isfinite(value) ? static_cast<double>(value) : 1;
 }
 
 double mean(const std::array<double, kNodes>& values) {
@@ -148,6 +161,10 @@ std::array<double, kNodeFeatures> NodeFeatures::of(std::size_t node) const {
   row[5] = middle;
   row[6] = middle * own;
   row[7] = log_m(voted_m_[node], kLeastApart_m);
+  const bool before = node < kNodes / 2;
+  row[8] = log_m(before ? sigma_m_.front() : sigma_m_.back(), kLeastSigma_m);
+  row[9] = log_m(before ? sigma_m_.back() : sigma_m_.front(), kLeastSigma_m);
+  row[10] = -std::log(std::max(sine(candidate_.nodes, node), kLeastSine));
   return row;
 }
 

@@ -10,7 +10,7 @@
 
 namespace flowdlo::gate {
 
-inline constexpr std::size_t kNodeFeatures = 36;
+inline constexpr std::size_t kNodeFeatures = 39;
 
 class NodeFeatures {
  public:

@@ -22,6 +22,7 @@ constexpr std::size_t kNodeStep = 4;  // neighbours tell the same
 constexpr double kLeastError_m = 1e-5;
 constexpr double kOneSigma = 0.68;
 constexpr double kTwoSigma = 0.95;
+constexpr double kTooNarrow = 1.25;  // what is missed by it counts that much more
 constexpr int kHalvings = 20;
 constexpr int kOddsSteps = 20;
 constexpr double kOddsFloor = 1e-3;
@@ -124,8 +125,9 @@ NodeRows node_rows(const GateSample& sample, const Outcome& outcome, double prob
 }
 
 ErrorNetwork fit_node_error(const std::vector<NodeRows>& nodes, const Indices& use) {
-  NetworkTask task{.inputs = gate::kNodeFeatures,
-                   .outputs = gate::NodeError::kNumbers,
+  NetworkTask task{.inputs = ErrorNetwork::kInputs,
+                   .outputs = ErrorNetwork::kOutputs,
+                   .hidden = ErrorNetwork::kHidden,
                    .start = {kErrorAtFirst.begin(), kErrorAtFirst.end()},
                    .ridge = kErrorRidge,
                    .steps = kErrorSteps,
@@ -147,16 +149,19 @@ ErrorNetwork fit_node_error(const std::vector<NodeRows>& nodes, const Indices& u
   return network_of<ErrorNetwork>(fit_network(task));
 }
 
-/// Nodes within one and within two sigma_m, beyond what they should be; rises with the share.
+/// By how much too many nodes are within one sigma_m and too few within two, as a balance; rises
+/// with the share.
 double excess(const std::vector<gate::NodeError>& errors, const std::vector<double>& log_m,
               double share) {
-  double sum = 0;
+  double within_one = 0;
+  double within_two = 0;
   for (std::size_t i = 0; i < errors.size(); ++i) {
     const double two_sigma = std::log(errors[i].quantile_m(share));
-    sum += log_m[i] <= two_sigma ? 1 : 0;
-    sum += log_m[i] <= two_sigma - std::log(2.0) ? 1 : 0;
+    within_one += log_m[i] <= two_sigma - std::log(2.0) ? 1 : 0;
+    within_two += log_m[i] <= two_sigma ? 1 : 0;
   }
-  return sum / static_cast<double>(errors.size()) - kOneSigma - kTwoSigma;
+  const auto count = static_cast<double>(errors.size());
+  return within_one / count - kOneSigma + kTooNarrow * (within_two / count - kTwoSigma);
 }
 
 double fit_sigma_share(const std::vector<NodeRows>& nodes, std::size_t counted) {

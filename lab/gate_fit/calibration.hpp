@@ -19,7 +19,8 @@ struct Outcome {
 
 /// Fills closeness, node_error and sigma_share of `weights`. The last is as large as it has to be
 /// for the nodes within one and within two sigma_m, of those of the first `counted` scenes that
-/// nothing was fitted on, to be 68 % and 95 %, or to miss them by as much on either side.
+/// nothing was fitted on, to be 68 % and 95 %, or to miss them on either side; too narrow counts a
+/// quarter more than too wide.
 void calibrate(const std::vector<GateSample>& samples, const std::vector<Outcome>& outcomes,
                std::size_t counted, gate::GateWeights& weights);
 

@@ -67,7 +67,7 @@ Weights first_weights(const NetworkTask& task) {
   std::mt19937_64 engine(kSeed);
   const auto inputs = static_cast<Index>(task.inputs);
   const auto outputs = static_cast<Index>(task.outputs);
-  const auto hidden = static_cast<Index>(gate::kHidden);
+  const auto hidden = static_cast<Index>(task.hidden);
   Weights weights{Matrix(hidden, inputs), Matrix::Zero(outputs, hidden),
                   Matrix::Zero(outputs, inputs)};
   // From zero, hidden weights and what is made of them never move.

@@ -13,14 +13,15 @@ namespace flowdlo::lab {
 
 /// A network of any size, as a fit sees it.
 struct NetworkWeights {
-  std::vector<double> hidden;    ///< [gate::kHidden, inputs]
-  std::vector<double> bent;      ///< [outputs, gate::kHidden]
+  std::vector<double> hidden;    ///< [hidden, inputs]
+  std::vector<double> bent;      ///< [outputs, hidden]
   std::vector<double> straight;  ///< [outputs, inputs]
 };
 
 struct NetworkTask {
   std::size_t inputs = 0;  ///< features of a row; the first of each is one
   std::size_t outputs = 0;
+  std::size_t hidden = 8;
   std::vector<double> rows{};  ///< [rows, inputs]
   std::vector<double> start;   ///< [outputs] what is said of every row at first
   double ridge = 0;            ///< penalty of squared weights of standardised features, a row

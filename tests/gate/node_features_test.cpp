@@ -14,7 +14,10 @@ namespace {
 // Where the features that these tests look at stand in a row.
 constexpr std::size_t kSpread = 2;
 constexpr std::size_t kVoted = 7;
-constexpr std::size_t kAlone = 10;
+constexpr std::size_t kNearerTip = 8;
+constexpr std::size_t kFartherTip = 9;
+constexpr std::size_t kSlant = 10;
+constexpr std::size_t kAlone = 13;
 
 Candidate straight(int hypothesis) {
   Candidate candidate;
@@ -78,14 +81,36 @@ TEST(NodeFeatures, SayThatThereIsNoRival) {
   EXPECT_EQ(features_of(two, 0).of(0)[kAlone], 0);
 }
 
+TEST(NodeFeatures, KnowHowFarBothTipsMayBeOff) {
+  std::vector candidates{straight(0)};
+  candidates[0].sigma_m.back() = 0.01F;
+  const NodeFeatures features = features_of(candidates, 0);
+  EXPECT_NEAR(features.of(50)[kNearerTip] - features.of(50)[kFartherTip], std::log(10), 1e-3);
+  EXPECT_EQ(features.of(10)[kNearerTip], features.of(50)[kFartherTip]);
+  EXPECT_EQ(features.of(10)[kFartherTip], features.of(50)[kNearerTip]);
+}
+
+TEST(NodeFeatures, KnowWhereTheRopeRunsTowardsTheCamera) {
+  std::vector candidates{straight(0)};
+  for (std::size_t i = 40; i < kNodes; ++i) {  // along the ray
+    candidates[0].nodes[i] = {0.4F * (0.5F + 0.005F * static_cast<float>(i - 39)), 0,
+                              0.5F + 0.005F * static_cast<float>(i - 39)};
+  }
+  const NodeFeatures features = features_of(candidates, 0);
+  EXPECT_LT(features.of(5)[kSlant], 0.2);
+  EXPECT_GT(features.of(50)[kSlant], 2);
+}
+
 TEST(NodeFeatures, AreFiniteWhereACandidateIsNot) {
   Candidate lost = branching(1);
   lost.nodes[3].x = std::numeric_limits<float>::infinity();
-  const std::vector candidates{straight(0), lost};
+  std::vector candidates{straight(0), lost};
   const NodeFeatures features = features_of(candidates, 0);
   for (std::size_t node = 0; node < kNodes; ++node) {
     for (const double value : features.of(node)) EXPECT_TRUE(std::isfinite(value));
   }
+  candidates[0].nodes[7].z = std::numeric_limits<float>::quiet_NaN();
+  for (const double value : features_of(candidates, 0).of(7)) EXPECT_TRUE(std::isfinite(value));
 }
 
 }  // namespace

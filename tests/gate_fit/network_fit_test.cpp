@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -11,10 +12,15 @@ namespace {
 using Net = gate::Network<3, 1>;
 
 /// Least squares over rows of one and two uniform numbers.
-template <class Truth>
-Net fitted(const Truth& truth, double ridge) {
+template <class Network = Net, class Truth>
+Network fitted(const Truth& truth, double ridge) {
   std::mt19937_64 engine(3);
-  NetworkTask task{.inputs = 3, .outputs = 1, .start = {0}, .ridge = ridge, .steps = 800};
+  NetworkTask task{.inputs = 3,
+                   .outputs = 1,
+                   .hidden = Network::kHidden,
+                   .start = {0},
+                   .ridge = ridge,
+                   .steps = 800};
   std::vector<double> wanted;
   for (int i = 0; i < 1000; ++i) {
     const auto uniform = [&] { return static_cast<double>(engine() >> 11) / 4503599627370496 - 1; };
@@ -26,7 +32,7 @@ Net fitted(const Truth& truth, double ridge) {
   task.slope = [&](std::size_t row, std::span<const double> said, std::span<double> slope) {
     slope[0] = said[0] - wanted[row];
   };
-  return network_of<Net>(fit_network(task));
+  return network_of<Network>(fit_network(task));
 }
 
 TEST(FitNetwork, FindsAPlane) {
@@ -43,6 +49,19 @@ TEST(FitNetwork, FindsABend) {
   for (const double a : {-0.8, -0.4, 0.4, 0.8}) {
     EXPECT_NEAR(network({1, a, 5})[0], std::abs(a), 0.1);
   }
+}
+
+TEST(FitNetwork, MoreHiddenUnitsFollowAWave) {
+  const auto wave = [](double a, double) { return std::sin(5 * a); };
+  const auto worst = [&](const auto& network) {
+    double off = 0;
+    for (double a = -0.9; a <= 0.9; a += 0.1) {
+      off = std::max(off, std::abs(network({1, a, 5})[0] - wave(a, 5)));
+    }
+    return off;
+  };
+  const double few = worst(fitted<gate::Network<3, 1, 1>>(wave, 0));
+  EXPECT_LT(worst(fitted<gate::Network<3, 1, 16>>(wave, 0)), 0.5 * few);
 }
 
 TEST(FitNetwork, ARidgeKeepsWeightsSmall) {
