@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 
 #include "prior/background.hpp"
 #include "prior/contacts.hpp"
@@ -25,9 +26,10 @@ constexpr float kSmoothWidths = 0.5F;  // see ProfileConfig
 constexpr float kLeastSmoothPx = 4.5F;
 constexpr float kTensionSmooths = 12.0F;
 constexpr double kLeastDepth_m = 1e-3;
-constexpr float kLeastSine = 0.25F;   // of ray and axis
-constexpr float kForgiven = 0.5F;     // radii of misfit
-constexpr int kSlantRounds = 2;       // a steeper axis lies deeper, and is steeper for it
+constexpr float kLeastSine = 0.25F;  // of ray and axis
+constexpr float kForgiven = 0.5F;    // radii of misfit
+constexpr int kSlantRounds = 2;      // a steeper axis lies deeper, and is steeper for it
+constexpr float kSameSlant = 0.03F;
 constexpr int kLeastVotes = 6;        // readings that tell which strand is above
 constexpr float kUnderWeight = 4.0F;  // stations' worth of evidence
 
@@ -54,10 +56,7 @@ class Measurement {
     radius_m_ = depth_radius_m(strip_, extent_, axis_m_, slant_, radius_m_);
     collect();
     fit(true);
-    for (int round = 0; round < kSlantRounds; ++round) {
-      incline();
-      fit(true);
-    }
+    for (int round = 0; round < kSlantRounds && incline() > kSameSlant; ++round) fit(true);
     rope.axis_m = axis_m_;
     rope.slant = slant_;
     rope.radius_m = radius_m_;
@@ -189,8 +188,10 @@ class Measurement {
     }
   }
 
-  /// 1 / sin of the angle between the ray and the axis.
-  void incline() {
+  /// 1 / sin of the angle between the ray and the axis. Returns by how much it changed at most, as
+  /// a share.
+  float incline() {
+    float most = 0;
     const int last = static_cast<int>(strip_.stations.size()) - 1;
     const int reach =
         std::max(1, static_cast<int>(strip_.width_px / std::max(strip_.step_px, 1e-3F)));
@@ -203,8 +204,11 @@ class Measurement {
       const float length = along.norm();
       if (!(length > 0)) continue;
       const float sine = along.cross(station(i).ray).norm() / (length * station(i).ray.norm());
-      slant_[static_cast<std::size_t>(i)] = 1 / std::max(sine, kLeastSine);
+      float& slant = slant_[static_cast<std::size_t>(i)];
+      const float before = std::exchange(slant, 1 / std::max(sine, kLeastSine));
+      most = std::max(most, std::abs(slant / before - 1));
     }
+    return most;
   }
 
   void describe(RopeDepth& rope) const {
