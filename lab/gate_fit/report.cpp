@@ -153,12 +153,16 @@ std::string calibration(const std::vector<Row>& rows) {
     text +=
         fmt::format("| {:.2f} | {} | {:.1f} % |\n", bin.sum / bin.scenes, bin.scenes, 100 * was);
   }
+  const auto share = [&](double Row::*field) {
+    const auto interval = eval::mean_interval(values(rows, field));
+    return fmt::format("{:.1f} % ({:.1f} to {:.1f})", 100 * interval.value, 100 * interval.low,
+                       100 * interval.high);
+  };
   return text +
          fmt::format(
-             "\nExpected calibration error {:.3f}. Nodes within one sigma_m: {:.1f} %, within "
-             "two: {:.1f} %.\n",
-             off, 100 * mean(rows, [](const Row& row) { return row.one_sigma; }),
-             100 * mean(rows, [](const Row& row) { return row.two_sigma; }));
+             "\nExpected calibration error {:.3f}. Nodes within one sigma_m: {}, within two: "
+             "{}.\n",
+             off, share(&Row::one_sigma), share(&Row::two_sigma));
 }
 
 }  // namespace
