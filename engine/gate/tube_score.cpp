@@ -7,6 +7,7 @@
 #include "gate/tube_shape.hpp"
 #include "geometry/camera.hpp"
 #include "geometry/polyline.hpp"
+#include "geometry/quantile.hpp"
 
 namespace flowdlo::gate {
 namespace {
@@ -97,9 +98,7 @@ float pixel_m(const Centerline& nodes, const Intrinsics& camera) {
     if (node.z > kMinDepth_m && node.z < kMostDepth_m) depths.push_back(node.z);
   }
   if (depths.empty()) return 0;
-  const auto middle = depths.begin() + static_cast<std::ptrdiff_t>(depths.size() / 2);
-  std::nth_element(depths.begin(), middle, depths.end());
-  return *middle / (0.5F * (camera.fx + camera.fy));
+  return geometry::median_of(depths) / (0.5F * (camera.fx + camera.fy));
 }
 
 float tube_radius_m(const Centerline& nodes, const Intrinsics& camera, float rope_width_px) {
@@ -170,9 +169,7 @@ float TubeView::depth_noise_m() const {
     }
   }
   if (steps.empty()) return 0;
-  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
-  std::nth_element(steps.begin(), middle, steps.end());
-  return 1.05F * *middle;  // median of |a - b| is 0.954 deviations
+  return 1.05F * geometry::median_of(steps);  // median of |a - b| is 0.954 deviations
 }
 
 float TubeView::radius_m(const Centerline& nodes) const {

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "geometry/quantile.hpp"
+
 namespace flowdlo::path {
 namespace {
 
@@ -47,9 +49,7 @@ float width_of(const Segment& segment, const cv::Mat& distance) {
                                                  static_cast<int>(std::lround(p.x())))));
   }
   if (values.empty()) return 0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
+  return geometry::median_of(values);
 }
 
 // True for a knot of junctions, and where two strands lie on or beside each other.

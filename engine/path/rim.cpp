@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/quantile.hpp"
 #include "path/midline.hpp"
 
 namespace flowdlo::path {
@@ -57,9 +58,7 @@ float full_width(const std::vector<Section>& sections, float width_px) {
     }
   }
   if (widths.size() < kLeastUsual) return width_px;
-  const auto middle = widths.begin() + static_cast<std::ptrdiff_t>(widths.size() / 2);
-  std::nth_element(widths.begin(), middle, widths.end());
-  return *middle;
+  return geometry::median_of(widths);
 }
 
 void find_rims(const Points& points, const Cover& cover, float width_px,

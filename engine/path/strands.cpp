@@ -6,6 +6,7 @@
 #include <map>
 #include <utility>
 
+#include "geometry/quantile.hpp"
 #include "path/cover.hpp"
 #include "path/crossings.hpp"
 #include "path/midline.hpp"
@@ -49,12 +50,6 @@ int distorted(const Points& points, const cv::Mat& distance, float scale_px, flo
   return most;
 }
 
-float median_of(std::vector<float>& values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 // Cuts what thinning leaves skewed at a tip (half a width; all of the corner where an occluder cut
 // the rope aslant, but for points that follow its rim), then follows the direction to the mask's
 // edge.
@@ -63,7 +58,7 @@ void extend_tip(Points& points, std::vector<std::uint8_t>& aside, const Region& 
   std::vector<float> distances;
   const auto near = std::min(points.size(), static_cast<std::size_t>(kTipWidths * scale_px));
   for (std::size_t i = 0; i < near; ++i) distances.push_back(at(region.distance_px, points[i]));
-  const float full = kFullShare * median_of(distances);
+  const float full = kFullShare * geometry::median_of(distances);
   const auto most = std::min(points.size() / 3, static_cast<std::size_t>(2.5F * width_px));
   std::size_t cut = 0;
   while (cut < most && ((points[cut] - points[0]).norm() < 0.5F * width_px ||
@@ -99,7 +94,7 @@ float depth_at(const Vector2f& p, const Region& region, const Frame& frame) {
     const float z = frame.depth_m[static_cast<std::size_t>(image_v) * frame.width + image_u];
     if (std::isfinite(z) && z > 1e-6F) values.push_back(z);
   }
-  return values.empty() ? 0 : median_of(values);
+  return values.empty() ? 0 : geometry::median_of(values);
 }
 
 // Of a point that lies under an occluder: the depth of what shows beside it.
@@ -143,11 +138,11 @@ void measure_depth(const Points& points, const Region& region, const Frame& fram
   const float limit = kMaxSlope * samples.front().second / std::max(1.0F, frame.intrinsics.fx);
   const float span = static_cast<float>(last - skipped);
   const float trust = span / (span + kSlopeWidths * scale_px);
-  const float slope = trust * std::clamp(median_of(values), -limit, limit);
+  const float slope = trust * std::clamp(geometry::median_of(values), -limit, limit);
   values.clear();
   for (const auto& [from, z] : samples) values.push_back(z + slope * from);
   end.slope_per_px = slope;
-  end.depth_m = median_of(values);
+  end.depth_m = geometry::median_of(values);
 }
 
 Strand make_strand(const Segment& segment, const Graph& graph, const Crossings& crossings,
@@ -214,7 +209,7 @@ bool doubled(const Segment& segment, const Graph& graph, const Region& region,
   for (std::size_t i = margin; i + margin < segment.points_px.size(); ++i) {
     widths.push_back(width_at(at(region.distance_px, segment.points_px[i])));
   }
-  return !widths.empty() && median_of(widths) >= kDoubledWidths * sizes.width_px;
+  return !widths.empty() && geometry::median_of(widths) >= kDoubledWidths * sizes.width_px;
 }
 
 // The ends that meet at a node lie left and right of their middle.

@@ -8,6 +8,8 @@
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
+#include "geometry/quantile.hpp"
+
 namespace flowdlo::path {
 namespace {
 
@@ -26,13 +28,6 @@ struct Depths {
   float noise_m = 0;  // of a single depth
   float usual_m = 0;
 };
-
-float median_of(std::vector<float>& values) {
-  if (values.empty()) return 0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 // Depths inside of the mask, 0 where there are none.
 cv::Mat masked_depths(const cv::Mat& mask, cv::Point offset_px, const Frame& frame) {
@@ -69,7 +64,7 @@ void measure_noise(const cv::Mat& depth, Depths& depths) {
     }
   }
   if (values.empty()) return;
-  depths.usual_m = median_of(values);
+  depths.usual_m = geometry::median_of(values);
   const auto kept = static_cast<std::ptrdiff_t>(kKept * static_cast<float>(bends.size()));
   if (kept == 0) return;
   std::nth_element(bends.begin(), bends.begin() + kept, bends.end());

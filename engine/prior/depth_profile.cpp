@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstddef>
 
+#include "geometry/quantile.hpp"
+
 namespace flowdlo::prior {
 namespace {
 
@@ -70,12 +72,6 @@ class Pentadiagonal {
   std::vector<std::array<double, 3>> factor_;  // D, and the two bands of L below it
 };
 
-double median_of(std::vector<double>& values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 /// Medians over blocks, joined by straight lines.
 std::vector<double> first_guess(int stations, std::span<const DepthClaim> claims, float block) {
   const int length = std::max(1, static_cast<int>(block));
@@ -92,7 +88,7 @@ std::vector<double> first_guess(int stations, std::span<const DepthClaim> claims
   for (std::size_t b = 0; b < seen.size(); ++b) {
     if (seen[b].empty()) continue;
     const double to = (static_cast<double>(b) + 0.5) * length;
-    const double z = median_of(seen[b]);
+    const double z = geometry::median_of(seen[b]);
     for (int i = std::max(0, static_cast<int>(std::ceil(from))); i < stations; ++i) {
       const double t = from < 0 ? 1 : std::min(1.0, (i - from) / (to - from));
       guess[static_cast<std::size_t>(i)] = from < 0 ? z : z_from + t * (z - z_from);
@@ -116,7 +112,7 @@ double robust_sigma(std::span<const DepthClaim> claims, const std::vector<double
     const auto i = static_cast<std::size_t>(claim.station);
     misfits.push_back(std::abs(static_cast<double>(claim.depth_m) - profile[i]) / slant[i]);
   }
-  return misfits.empty() ? 0 : 1.4826 * median_of(misfits);
+  return misfits.empty() ? 0 : 1.4826 * geometry::median_of(misfits);
 }
 
 double robust_weight(double misfit, double scale, bool tukey) {

@@ -5,6 +5,7 @@
 #include <cstddef>
 
 #include "geometry/camera.hpp"
+#include "geometry/quantile.hpp"
 
 namespace flowdlo::prior {
 namespace {
@@ -66,9 +67,7 @@ float deviation_of_width_px(const Strip& strip) {
     bends.push_back(std::abs(wide(i) - 0.5F * (wide(i - apart) + wide(i + apart))));
   }
   if (bends.empty()) return 0;
-  const auto middle = bends.begin() + static_cast<std::ptrdiff_t>(bends.size() / 2);
-  std::nth_element(bends.begin(), middle, bends.end());
-  const float fray = kOfMedian * *middle;
+  const float fray = kOfMedian * geometry::median_of(bends);
   return std::sqrt(std::max(0.0F, fray * fray - kGridPx * kGridPx));
 }
 

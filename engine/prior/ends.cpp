@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "geometry/polyline.hpp"
+#include "geometry/quantile.hpp"
 
 namespace flowdlo::prior {
 namespace {
@@ -65,12 +66,6 @@ bool inside(const Frame& frame, const Vector2f& p) {
 
 bool masked(const Frame& frame, const Vector2f& p) {
   return inside(frame, p) && frame.mask[pixel(frame, p)] > 127;
-}
-
-float median_of(std::vector<float>& values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 /// Unit direction in which the back of `points` looks out.
@@ -176,7 +171,7 @@ class StripEnd {
     if (static_cast<float>(widths.size()) * strip_.step_px < 0.5F * usual_px) {
       return 0.5F * usual_px;
     }
-    return 0.5F * median_of(widths);
+    return 0.5F * geometry::median_of(widths);
   }
 
   /// How wide the cap is next to its tip, as a share of the rope: a round one 0.76, a square one 1.
@@ -221,16 +216,16 @@ class StripEnd {
     }
     if (first.empty()) return {};
     Tip tip;
-    tip.depth_m = median_of(first);
+    tip.depth_m = geometry::median_of(first);
     const float width_m = tip.depth_m * strip_.width_px * at(0).aside;
     if (!next.empty()) {
       const float apart = 0.5F * kWidthTo;  // widths between the middles of both parts
-      tip.slope_m = (tip.depth_m - median_of(next)) / apart;
+      tip.slope_m = (tip.depth_m - geometry::median_of(next)) / apart;
       tip.slope_m = std::clamp(tip.slope_m, -kSteepestTip * width_m, kSteepestTip * width_m);
     }
     float height_m = 0;
     for (std::vector<float>& some : heights) {
-      if (!some.empty() && height_m <= kHangsWidths * width_m) height_m = median_of(some);
+      if (!some.empty() && height_m <= kHangsWidths * width_m) height_m = geometry::median_of(some);
     }
     tip.hangs = height_m > kHangsWidths * width_m || before_nothing > kMostlyNothing * beside;
     return tip;

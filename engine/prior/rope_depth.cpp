@@ -11,6 +11,7 @@
 #include <cstddef>
 #include <utility>
 
+#include "geometry/quantile.hpp"
 #include "prior/background.hpp"
 #include "prior/contacts.hpp"
 #include "prior/depth_profile.hpp"
@@ -32,12 +33,6 @@ constexpr int kSlantRounds = 2;      // a steeper axis lies deeper, and is steep
 constexpr float kSameSlant = 0.03F;
 constexpr int kLeastVotes = 6;        // readings that tell which strand is above
 constexpr float kUnderWeight = 4.0F;  // stations' worth of evidence
-
-float median_of(std::vector<float>& values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 class Measurement {
  public:
@@ -229,7 +224,7 @@ class Measurement {
     }
     for (const int backs : backing) rope.seen.push_back(backs > 0 ? 1 : 0);
     rope.hidden = hidden_;
-    rope.noise_m = misfits.empty() ? radius_m_ : 1.4826F * median_of(misfits);
+    rope.noise_m = misfits.empty() ? radius_m_ : 1.4826F * geometry::median_of(misfits);
   }
 
   const Strip& strip_;

@@ -6,6 +6,8 @@
 #include <cstddef>
 #include <vector>
 
+#include "geometry/quantile.hpp"
+
 namespace flowdlo::prior {
 namespace {
 
@@ -17,12 +19,6 @@ constexpr std::size_t kLeastInBin = 40;
 constexpr float kFallsAway = 1.4F;  // times the distance from the axis
 constexpr float kLeast_m = 5e-4F;
 constexpr float kMost_m = 0.04F;
-
-float median_of(std::vector<float>& values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 /// The mean of the middle half: widths are counted in pixels, so that a median would be too.
 float midmean_of(std::vector<float>& values) {
@@ -47,7 +43,7 @@ float mask_radius_m(const Strip& strip, const Extent& extent, std::span<const fl
     off[i] = std::abs(reading.offset_px);
     depth[i] = reading.depth_m;
   }
-  const float typical_m = median_of(all);
+  const float typical_m = geometry::median_of(all);
   std::vector<float> radii;
   for (std::size_t i = 0; i < strip.stations.size(); ++i) {
     const Station& at = strip.stations[i];
@@ -76,11 +72,11 @@ float depth_radius_m(const Strip& strip, const Extent& extent, std::span<const d
     if (bin < kBins / 4) ridge.push_back(behind[bin].back());
   }
   if (ridge.size() < kLeastInBin) return mask_radius_m;
-  const float top = median_of(ridge);
+  const float top = geometry::median_of(ridge);
   for (std::size_t bin = kBins / 2; bin < kBins; ++bin) {
     if (behind[bin].size() < kLeastInBin) continue;
     const float x_m = (static_cast<float>(bin) + 0.5F) / kBins * mask_radius_m;
-    if (median_of(behind[bin]) - top < kFallsAway * x_m) continue;
+    if (geometry::median_of(behind[bin]) - top < kFallsAway * x_m) continue;
     return std::max(kLeast_m, static_cast<float>(bin) / kBins * mask_radius_m);
   }
   return mask_radius_m;

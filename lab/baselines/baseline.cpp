@@ -14,6 +14,7 @@
 #include "baselines/trackdlo_init.hpp"
 #include "baselines/zhang_suen.hpp"
 #include "evidence/visible_points.hpp"
+#include "geometry/quantile.hpp"
 #include "path/path.hpp"
 #include "path/region.hpp"
 #include "prior/refined_prior.hpp"
@@ -35,9 +36,7 @@ float rope_width_px(const cv::Mat& mask) {
     }
   }
   if (distances.empty()) return 1;
-  const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
-  std::nth_element(distances.begin(), middle, distances.end());
-  return path::width_at(*middle);
+  return path::width_at(geometry::median_of(distances));
 }
 
 path::Path path_of(const Stroke& stroke, float width_px) {

@@ -11,6 +11,7 @@
 #include "eval/metrics.hpp"
 #include "flowdlo/estimator.hpp"
 #include "flowdlo/frame_folder.hpp"
+#include "geometry/quantile.hpp"
 
 namespace flowdlo::eval {
 namespace {
@@ -84,10 +85,7 @@ double mean(const std::vector<double>& values) {
 }
 
 double median(std::vector<double> values) {
-  if (values.empty()) return 0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
+  return values.empty() ? 0 : geometry::median_of(values);
 }
 
 }  // namespace

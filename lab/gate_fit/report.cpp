@@ -12,6 +12,7 @@
 #include "eval/interval.hpp"
 #include "eval/metrics.hpp"
 #include "gate_fit/fit.hpp"
+#include "geometry/quantile.hpp"
 
 namespace flowdlo::lab {
 namespace {
@@ -99,10 +100,7 @@ std::string group_line(const std::string& name, const std::vector<Row>& rows) {
 }
 
 double median(std::vector<double> values) {
-  if (values.empty()) return 0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
+  return values.empty() ? 0 : geometry::median_of(values);
 }
 
 /// Coverage and width of sigma_m in tenths of the scenes, least confident first.

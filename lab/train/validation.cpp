@@ -6,6 +6,7 @@
 #include <map>
 
 #include "flow/gaussian_source.hpp"
+#include "geometry/quantile.hpp"
 #include "prior/prior.hpp"
 #include "train/batch.hpp"
 
@@ -30,11 +31,6 @@ Tensor error_cm(const Tensor& nodes, const Tensor& truth, const Tensor& norm) {
 }
 
 GroupErrors summary(const std::string& group, const std::vector<Errors>& errors) {
-  const auto median = [](std::vector<double> values) {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
-  };
   GroupErrors result;
   result.group = group;
   result.records = static_cast<int>(errors.size());
@@ -54,8 +50,8 @@ GroupErrors summary(const std::string& group, const std::vector<Errors>& errors)
                       &result.harmed}) {
     *sum /= result.records;
   }
-  result.prior_median_cm = median(std::move(prior));
-  result.model_median_cm = median(std::move(model));
+  result.prior_median_cm = geometry::median_of(prior);
+  result.model_median_cm = geometry::median_of(model);
   return result;
 }
 
