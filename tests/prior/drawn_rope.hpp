@@ -66,6 +66,25 @@ inline DrawnRope draw_rope(const lab::Curve3& curve, const std::vector<lab::Bar>
 /// pixels all along.
 inline lab::Curve3 straight_line() { return {{-0.2, -0.004, 0.6}, {0.2, 0.004, 0.6}}; }
 
+/// `straight_line` without round caps: in the mask from u = 150 to 490.
+inline DrawnRope cut_off_square() {
+  DrawnRope rope = draw_rope(straight_line());
+  for (int v = 0; v < rope.image.height; ++v) {
+    for (int u = 0; u < rope.image.width; ++u) {
+      if (u < 150 || u > 490) rope.image.mask[rope.index(u, v)] = 0;
+    }
+  }
+  rope.path.points_px = {{150, 236.6F}, {490, 243.4F}};
+  return rope;
+}
+
+/// No depth where first_u <= u < last_u.
+inline void erase_depth(DrawnRope& rope, int first_u, int last_u) {
+  for (int v = 0; v < rope.image.height; ++v) {
+    for (int u = first_u; u < last_u; ++u) rope.image.depth_m[rope.index(u, v)] = 0;
+  }
+}
+
 /// Along u at z = 0.6, round a loop and back along v, crossing at (320, 240) at z = `second_m`.
 inline lab::Curve3 crossing_line(double second_m) {
   lab::Curve3 curve;
