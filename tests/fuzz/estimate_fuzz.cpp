@@ -1,5 +1,6 @@
 // `estimate` on small frames, with the model that ships, on the CPU: an error, or an estimate that
-// keeps what estimate.hpp promises, twice with the same bits. The first byte chooses the gate.
+// keeps what estimate.hpp promises, with the same bits
+// when asked again. The first byte chooses the gate, and whether it is asked again.
 #include <cmath>
 #include <cstring>
 
@@ -70,17 +71,16 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
       made(flowdlo::GateChoice::kCalibrated, flowdlo::PriorChoice::kRefined);
   static Estimator thesis = made(flowdlo::GateChoice::kThesis, flowdlo::PriorChoice::kThesis);
   flowdlo::fuzz::ByteSource bytes({data, size});
-  Estimator& estimator = bytes.byte() % 4 == 0 ? thesis : calibrated;
+  const int choice = bytes.byte();
+  Estimator& estimator = choice % 4 == 0 ? thesis : calibrated;
   const auto drawn = flowdlo::fuzz::draw_frame(bytes, kMostSide_px);
   const auto first = estimator.estimate(drawn.frame());
+  if (first) check(*first);
+  const bool internal = !first && first.error().code == flowdlo::ErrorCode::kInternal;
+  promise(!internal, "no frame is a defect of ours");
+  if (choice % 8 >= 4) return 0;  // half of the time is for what is new
   const auto second = estimator.estimate(drawn.frame());
   promise(first.has_value() == second.has_value(), "the same frame gives the same answer");
-  if (!first) {
-    promise(first.error().code != flowdlo::ErrorCode::kInternal, "no frame is a defect of ours");
-    promise(first.error().message == second.error().message, "and the same words");
-    return 0;
-  }
-  check(*first);
-  promise(same_bits(*first, *second), "the same frame gives the same bits");
+  promise(!first || same_bits(*first, *second), "the same frame gives the same bits");
   return 0;
 }

@@ -19,7 +19,7 @@ using flowdlo::path::Path;
 using flowdlo::path::Reading;
 using flowdlo::path::Traversals;
 
-constexpr int kMostSide_px = 96;
+constexpr int kMostSide_px = 96;  // so that an execution takes milliseconds
 constexpr std::array kReadings{Reading::kAsGiven, Reading::kHalved,  Reading::kDoubled,
                                Reading::kEroded,  Reading::kDilated, Reading::kMeasured};
 
@@ -75,10 +75,11 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
                                           .rope_length_m = choice >= 128 ? 0.5 : 0.0};
   const auto traversals = flowdlo::path::trace(frame, config);
   check(traversals, frame);
-  const auto again = flowdlo::path::trace(frame, config);
-  promise(again.has_value() == traversals.has_value() && (!again || same(*again, *traversals)),
-          "the same frame gives the same paths");
   if (!traversals) return 0;
+  if (choice % 8 == 7) {
+    const auto again = flowdlo::path::trace(frame, config);
+    promise(again && same(*again, *traversals), "the same frame gives the same paths");
+  }
   const auto reading = kReadings[static_cast<std::size_t>(choice) % kReadings.size()];
   check(flowdlo::path::trace_as(reading, frame, traversals->rope_width_px, config), frame);
   return 0;
