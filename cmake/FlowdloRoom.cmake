@@ -15,6 +15,9 @@ if(FLOWDLO_SANITIZE)
                                                    -fno-omit-frame-pointer -fno-sanitize-recover=all)
   target_link_options(flowdlo_options INTERFACE -fsanitize=${FLOWDLO_SANITIZE})
 endif()
+if(FLOWDLO_FUZZ)  # counts what an input reaches; tests/fuzz links the fuzzer itself
+  target_compile_options(flowdlo_options INTERFACE -fsanitize=fuzzer-no-link)
+endif()
 
 define_property(GLOBAL PROPERTY FLOWDLO_ROOMS BRIEF_DOCS "Object libraries that make up flowdlo")
 

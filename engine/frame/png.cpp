@@ -98,11 +98,15 @@ class Decoder {
   [[nodiscard]] bool read_header() {
     if (info_ == nullptr || setjmp(png_jmpbuf(png_)) != 0) return false;
     png_set_read_fn(png_, this, read);
+    // Text, profiles and the like are skipped, not unpacked: a file of 2 MB may hold gigabytes of
+    // them, and no pixel depends on any. -1 stands for all of them that libpng knows.
+    png_set_keep_unknown_chunks(png_, PNG_HANDLE_CHUNK_NEVER, nullptr, -1);
     png_read_info(png_, info_);
     const bool grey = png_get_color_type(png_, info_) == PNG_COLOR_TYPE_GRAY;
     png_set_palette_to_rgb(png_);
     if (grey) {
       png_set_expand_gray_1_2_4_to_8(png_);
+      png_set_strip_alpha(png_);  // one value may be declared transparent: it stays a value
     } else {
       png_set_gray_to_rgb(png_);
       png_set_tRNS_to_alpha(png_);

@@ -56,29 +56,35 @@ Result<void> export_safetensors(const std::filesystem::path& weights,
   return ws::write_file(output, parts);
 }
 
+Result<ws::FdwFile> ws::parse_exchanged(std::span<const std::uint8_t> bytes,
+                                        const std::filesystem::path& file) {
+  std::vector<std::string> faults;
+  const auto parsed = parse_safetensors(bytes, faults);
+  if (!faults.empty()) return bad_weights(file, faults);
+
+  FdwFile result;
+  result.weights.metadata = from_fields(parsed.metadata, faults);
+  for (auto& fault : weights::faults(result.weights.metadata)) faults.push_back(std::move(fault));
+  const Variant variant = usable(result.weights.metadata.variant);
+  const auto matched = match(parsed.tensors, variant, kReadable, faults);
+  result.weights.tensors = decode(matched, variant, faults);
+  result.sha256 = digest(matched);
+  if (faults.empty()) check_digest(parsed.metadata, result.sha256, faults);
+  if (!faults.empty()) return bad_weights(file, faults);
+
+  for (const StoredTensor* tensor : matched) {
+    result.types.push_back(tensor->dtype == DType::kF16 ? StorageType::kF16 : StorageType::kF32);
+  }
+  return result;
+}
+
 Result<void> import_safetensors(const std::filesystem::path& input,
                                 const std::filesystem::path& weights) {
   const auto bytes = ws::read_file(input);
   if (!bytes) return bytes.error();
-  std::vector<std::string> faults;
-  const auto parsed = ws::parse_safetensors(bytes->view(), faults);
-  if (!faults.empty()) return ws::bad_weights(input, faults);
-
-  ws::Weights result;
-  result.metadata = ws::from_fields(parsed.metadata, faults);
-  for (auto& fault : ws::faults(result.metadata)) faults.push_back(std::move(fault));
-  const ws::Variant variant = ws::usable(result.metadata.variant);
-  const auto matched = ws::match(parsed.tensors, variant, kReadable, faults);
-  result.tensors = ws::decode(matched, variant, faults);
-  if (faults.empty()) check_digest(parsed.metadata, ws::digest(matched), faults);
-  if (!faults.empty()) return ws::bad_weights(input, faults);
-
-  std::vector<ws::StorageType> types;
-  for (const ws::StoredTensor* tensor : matched) {
-    const bool half = tensor->dtype == ws::DType::kF16;
-    types.push_back(half ? ws::StorageType::kF16 : ws::StorageType::kF32);
-  }
-  return ws::write_fdw(result, types, weights);
+  const auto file = ws::parse_exchanged(bytes->view(), input);
+  if (!file) return file.error();
+  return ws::write_fdw(file->weights, file->types, weights);
 }
 
 }  // namespace flowdlo

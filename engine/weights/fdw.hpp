@@ -1,7 +1,9 @@
 // Fdw: a weights file with all that the public structs leave out, for inspection and exchange.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -19,6 +21,15 @@ struct FdwFile {
 
 /// Reads and verifies. Fails with kIo or kBadWeights, listing every mismatch.
 [[nodiscard]] Result<FdwFile> read_fdw(const std::filesystem::path& file);
+
+/// The same of bytes in memory, which are aligned for every scalar type; `file` is their name.
+[[nodiscard]] Result<FdwFile> parse_fdw(std::span<const std::uint8_t> bytes,
+                                        const std::filesystem::path& file);
+
+/// What a .safetensors file holds, as a .fdw file would hold it. Fails with kBadWeights, listing
+/// every mismatch; `file` is the name of `bytes`.
+[[nodiscard]] Result<FdwFile> parse_exchanged(std::span<const std::uint8_t> bytes,
+                                              const std::filesystem::path& file);
 
 /// Writes with a storage type for each tensor. Fails with kBadWeights (faults of `weights`, values
 /// beyond f16) or kIo; no partial file stays.

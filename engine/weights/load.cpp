@@ -106,11 +106,20 @@ std::vector<StoredTensor> stored_tensors(const fdw::Weights& root) {
   return stored;
 }
 
-Result<FdwFile> parsed(const FileBytes& bytes, const std::filesystem::path& file) {
-  const std::string envelope = envelope_fault(bytes.view());
+}  // namespace
+
+Weights KeptFile::decoded() const {
+  std::vector<std::string> faults;  // none: they were looked for when the file was read
+  const auto stored = stored_tensors(*fdw::GetWeights(bytes_.data.get()));
+  const auto matched = match(stored, metadata_.variant, kStorable, faults);
+  return {metadata_, decode(matched, metadata_.variant, faults)};
+}
+
+Result<FdwFile> parse_fdw(std::span<const std::uint8_t> bytes, const std::filesystem::path& file) {
+  const std::string envelope = envelope_fault(bytes);
   if (!envelope.empty()) return bad_weights(file, {envelope});
 
-  const fdw::Weights& root = *fdw::GetWeights(bytes.data.get());
+  const fdw::Weights& root = *fdw::GetWeights(bytes.data());
   std::vector<std::string> faults;
   FdwFile result;
   result.weights.metadata = metadata_of(*root.metadata(), faults);
@@ -133,25 +142,16 @@ Result<FdwFile> parsed(const FileBytes& bytes, const std::filesystem::path& file
   return result;
 }
 
-}  // namespace
-
-Weights KeptFile::decoded() const {
-  std::vector<std::string> faults;  // none: they were looked for when the file was read
-  const auto stored = stored_tensors(*fdw::GetWeights(bytes_.data.get()));
-  const auto matched = match(stored, metadata_.variant, kStorable, faults);
-  return {metadata_, decode(matched, metadata_.variant, faults)};
-}
-
 Result<FdwFile> read_fdw(const std::filesystem::path& file) {
   const auto bytes = read_file(file);
   if (!bytes) return bytes.error();
-  return parsed(*bytes, file);
+  return parse_fdw(bytes->view(), file);
 }
 
 Result<Loaded> load_and_keep(const std::filesystem::path& file) {
   auto bytes = read_file(file);
   if (!bytes) return bytes.error();
-  auto read = parsed(*bytes, file);
+  auto read = parse_fdw(bytes->view(), file);
   if (!read) return read.error();
   auto weights = std::make_shared<const Weights>(std::move(read->weights));
   KeptFile kept(*std::move(bytes), weights->metadata);

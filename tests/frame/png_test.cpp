@@ -2,10 +2,13 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <zlib.h>
 
 #include <cstddef>
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
+
+#include "support/peak_memory.hpp"
 
 namespace flowdlo::frame {
 namespace {
@@ -23,6 +26,37 @@ std::vector<std::uint8_t> encoded(int type) {
   auto bytes = encode_png(gradient(type));
   EXPECT_TRUE(bytes);
   return *bytes;
+}
+
+void append_big_endian(std::vector<std::uint8_t>& bytes, std::size_t value) {
+  for (const int shift : {24, 16, 8, 0}) bytes.push_back(static_cast<std::uint8_t>(value >> shift));
+}
+
+/// `png` with a chunk of that type before its pixels.
+std::vector<std::uint8_t> with_chunk(std::vector<std::uint8_t> png, const std::string& type,
+                                     const std::vector<std::uint8_t>& data, int times = 1) {
+  constexpr std::ptrdiff_t kHeaderEnd = 33;  // of the signature and IHDR
+  std::vector<std::uint8_t> content(type.begin(), type.end());
+  content.insert(content.end(), data.begin(), data.end());
+  std::vector<std::uint8_t> chunk;
+  append_big_endian(chunk, data.size());
+  chunk.insert(chunk.end(), content.begin(), content.end());
+  append_big_endian(chunk, crc32(0, content.data(), static_cast<uInt>(content.size())));
+  std::vector<std::uint8_t> chunks;
+  for (int i = 0; i < times; ++i) chunks.insert(chunks.end(), chunk.begin(), chunk.end());
+  png.insert(png.begin() + kHeaderEnd, chunks.begin(), chunks.end());
+  return png;
+}
+
+/// A chunk's data: `head`, then `count` zeros, compressed.
+std::vector<std::uint8_t> packed_zeros(const std::string& head, std::size_t count) {
+  const std::vector<std::uint8_t> zeros(count);
+  std::vector<std::uint8_t> packed(compressBound(count));
+  uLongf size = packed.size();
+  compress2(packed.data(), &size, zeros.data(), count, 9);
+  packed.resize(size);
+  packed.insert(packed.begin(), head.begin(), head.end());
+  return packed;
 }
 
 std::string fault_of(const std::vector<std::uint8_t>& bytes) {
@@ -87,6 +121,32 @@ TEST(Png, FlippedBitAnywhereIsFound) {
 TEST(Png, OtherFilesAreNamedAsSuch) {
   const std::vector<std::uint8_t> jpeg = {0xFF, 0xD8, 0xFF, 0xE0, 0, 16, 'J', 'F', 'I', 'F'};
   EXPECT_THAT(fault_of(jpeg), HasSubstr("expected a PNG image, got another kind of file"));
+}
+
+TEST(Png, TransparentGreyStaysGrey) {
+  for (const int type : {CV_8UC1, CV_16UC1}) {
+    const auto image = decode_png(with_chunk(encoded(type), "tRNS", {0, 7}), "a.png");
+    ASSERT_TRUE(image) << image.error().message;
+    ASSERT_EQ(image->type(), type);
+    EXPECT_EQ(cv::norm(*image, gradient(type), cv::NORM_INF), 0);
+  }
+}
+
+TEST(Png, WhatIsNoPixelIsNotUnpacked) {
+  constexpr std::size_t kUnpacked = 7900000;  // below libpng's own limit of 8 MB a chunk
+  constexpr int kChunks = 100;
+  const std::string no_profile("p\0\0", 3);
+  const std::string no_words("k\0\1\0\0\0", 6);
+  for (const auto& [type, head] : {std::pair{"zTXt", no_profile}, std::pair{"iCCP", no_profile},
+                                   std::pair{"iTXt", no_words}}) {
+    const auto bytes = with_chunk(encoded(CV_8UC1), type, packed_zeros(head, kUnpacked), kChunks);
+    const double grown_mb = test::peak_growth_mb([&] {
+      const auto image = decode_png(bytes, "a.png");
+      ASSERT_TRUE(image) << image.error().message;
+      EXPECT_EQ(cv::norm(*image, gradient(CV_8UC1), cv::NORM_INF), 0);
+    });
+    EXPECT_LT(grown_mb, 5) << type << ": a file of " << bytes.size() << " bytes";
+  }
 }
 
 TEST(Png, SidesBeyondTheLimitAreRefused) {

@@ -38,38 +38,11 @@ Error bad(const std::filesystem::path& file, const std::string& what) {
                       what)};
 }
 
-ImageMessage taken(sensor_msgs::Image& message) {
-  ImageMessage image;
-  image.width = message.width;
-  image.height = message.height;
-  image.encoding = message.encoding;
-  image.big_endian = message.is_bigendian != 0;
-  image.step = message.step;
-  image.data = std::move(message.data);
-  return image;
-}
-
-ImageMessage taken(sensor_msgs::CompressedImage& message) {
-  ImageMessage image;
-  image.compressed = true;
-  image.format = message.format;
-  image.data = std::move(message.data);
-  return image;
-}
-
-CameraMessage taken(const sensor_msgs::CameraInfo& message) {
-  CameraMessage camera;
-  camera.width = message.width;
-  camera.height = message.height;
-  camera.model = message.distortion_model;
-  camera.d = message.D;
-  std::copy(message.K.begin(), message.K.end(), camera.k.begin());
-  std::copy(message.P.begin(), message.P.end(), camera.p.begin());
-  const auto& roi = message.roi;
-  const bool whole = roi.width == 0 || (roi.x_offset == 0 && roi.y_offset == 0 &&
-                                        roi.width == message.width && roi.height == message.height);
-  camera.cropped = !whole || message.binning_x > 1 || message.binning_y > 1;
-  return camera;
+/// The message as it lies in the bag.
+std::vector<std::uint8_t> bytes_of(const rosbag::MessageInstance& message) {
+  ByteStream stream;
+  message.write(stream);
+  return std::move(stream.bytes);
 }
 
 }  // namespace
@@ -88,6 +61,10 @@ struct Bag::Impl {
     }
     for (const auto& message : view) messages[message.getTopic()].push_back(message);
     for (const auto& [name, type] : types) topics.push_back({name, type, messages[name].size()});
+  }
+
+  [[nodiscard]] std::string who(const std::string& topic, std::size_t index) const {
+    return fmt::format("{}: message {} of {}", path.string(), index, topic);
   }
 
   /// Calls `use` with the message; whatever is thrown on the way becomes an error.
@@ -170,10 +147,11 @@ Result<std::map<std::string, std::vector<Stamp>>> Bag::stamps(
 Result<ImageMessage> Bag::image(const std::string& topic, std::size_t index) const {
   return impl_->read(topic, index,
                      [&](const rosbag::MessageInstance& message) -> Result<ImageMessage> {
-                       if (const auto image = message.instantiate<sensor_msgs::Image>())
-                         return taken(*image);
-                       if (const auto image = message.instantiate<sensor_msgs::CompressedImage>()) {
-                         return taken(*image);
+                       const std::string who = impl_->who(topic, index);
+                       if (message.isType<sensor_msgs::Image>())
+                         return parse_image(bytes_of(message), who);
+                       if (message.isType<sensor_msgs::CompressedImage>()) {
+                         return parse_compressed_image(bytes_of(message), who);
                        }
                        return bad(impl_->path, fmt::format("{} is a {}, not an image", topic,
                                                            std::string(message.getDataType())));
@@ -183,7 +161,9 @@ Result<ImageMessage> Bag::image(const std::string& topic, std::size_t index) con
 Result<CameraMessage> Bag::camera(const std::string& topic, std::size_t index) const {
   return impl_->read(
       topic, index, [&](const rosbag::MessageInstance& message) -> Result<CameraMessage> {
-        if (const auto info = message.instantiate<sensor_msgs::CameraInfo>()) return taken(*info);
+        if (message.isType<sensor_msgs::CameraInfo>()) {
+          return parse_camera_info(bytes_of(message), impl_->who(topic, index));
+        }
         return bad(impl_->path, fmt::format("{} is a {}, not a sensor_msgs/CameraInfo", topic,
                                             std::string(message.getDataType())));
       });

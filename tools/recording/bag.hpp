@@ -1,7 +1,6 @@
 // Bag: the messages of a ROS 1 bag file that frames are made of. C++17, as the headers of ROS are.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -12,6 +11,7 @@
 #include <vector>
 
 #include "flowdlo/result.hpp"
+#include "recording/bag_message.hpp"
 
 namespace flowdlo::recording {
 
@@ -25,30 +25,6 @@ struct Topic {
   std::string name;
   std::string type;  ///< "sensor_msgs/Image"
   std::size_t messages = 0;
-};
-
-/// sensor_msgs/Image, or sensor_msgs/CompressedImage: then `format` says how, and only it and
-/// `data` are set.
-struct ImageMessage {
-  bool compressed = false;
-  std::string format;
-  std::uint32_t width = 0;
-  std::uint32_t height = 0;
-  std::string encoding;
-  bool big_endian = false;
-  std::uint32_t step = 0;  ///< bytes a row
-  std::vector<std::uint8_t> data;
-};
-
-/// sensor_msgs/CameraInfo.
-struct CameraMessage {
-  std::uint32_t width = 0;
-  std::uint32_t height = 0;
-  std::string model;         ///< of the distortion
-  std::vector<double> d;     ///< its coefficients
-  std::array<double, 9> k;   ///< of the image as it was taken, row-major
-  std::array<double, 12> p;  ///< of the rectified image, row-major
-  bool cropped = false;      ///< by binning or a region of interest
 };
 
 /// One thread at a time.

@@ -4,11 +4,14 @@
 #include <rosbag/chunked_file.h>
 #include <rosbag/stream.h>
 
+#include <algorithm>
 #include <cstdint>
+#include <cstdlib>
 #include <cstring>
 #include <exception>
 #include <fstream>
 #include <map>
+#include <memory>
 #include <set>
 #include <string>
 #include <string_view>
@@ -21,7 +24,9 @@ namespace {
 constexpr const char* kVersionLine = "#ROSBAG V2.0\n";
 constexpr std::uint64_t kMostHeaderBytes = 1U << 20U;
 constexpr std::uint64_t kMostIndexBytes = 1U << 28U;
-constexpr std::uint64_t kMostChunkBytes = 1U << 30U;
+// Of a compressed one, unpacked. Four images of 4096 x 4096 px; what records bags closes a chunk
+// after 768 kB and the message that crosses it.
+constexpr std::uint64_t kMostChunkBytes = 1U << 28U;
 constexpr std::size_t kIndexEntryBytes = 12;  // time, offset
 
 // Values of the field "op".
@@ -30,11 +35,12 @@ constexpr int kFileHeader = 3;
 constexpr int kIndex = 4;
 constexpr int kChunk = 5;
 constexpr int kChunkInfo = 6;
+constexpr int kConnection = 7;
 
 using Fields = std::map<std::string, std::string>;
 
 template <class Number>
-bool read_number(const std::string& bytes, std::size_t at, Number& number) {
+bool read_number(std::string_view bytes, std::size_t at, Number& number) {
   if (at > bytes.size() || bytes.size() - at < sizeof(Number)) return false;
   std::memcpy(&number, bytes.data() + at, sizeof(Number));  // bags are little-endian, as we are
   return true;
@@ -75,9 +81,13 @@ struct Record {
 // What is wrong, in words; empty: nothing.
 using Fault = std::string;
 
+struct Free {
+  void operator()(void* memory) const { std::free(memory); }
+};
+
 class Walker {
  public:
-  Walker(std::ifstream& stream, std::uint64_t size) : stream_(stream), size_(size) {}
+  Walker(std::istream& stream, std::uint64_t size) : stream_(stream), size_(size) {}
 
   Fault walk() {
     std::uint64_t at = std::strlen(kVersionLine);
@@ -134,6 +144,8 @@ class Walker {
         return take_chunk(record);
       case kIndex:
         return take_index(record);
+      case kConnection:
+        return take_connection(record);
       case kChunkInfo: {
         std::uint64_t chunk = 0;
         const bool known =
@@ -145,6 +157,18 @@ class Walker {
       default:
         return {};
     }
+  }
+
+  // Its data are fields again, and what reads bags follows their lengths wherever they lead.
+  Fault take_connection(const Record& record) {
+    const std::uint64_t size = record.end - record.data;
+    std::string data;
+    Fields fields;
+    const bool sound = size <= kMostHeaderBytes &&
+                       read_bytes(record.data, record.end, size, data) &&
+                       parse_fields(data, fields);
+    return sound ? Fault()
+                 : fmt::format("the connection at byte {} has a damaged header", record.begin);
   }
 
   Fault take_chunk(const Record& record) {
@@ -171,6 +195,8 @@ class Walker {
     for (std::uint64_t at = record.data; at < record.end; at = inner.end) {
       if (auto fault = read_record(at, record.end, inner); !fault.empty()) return fault;
       if (inner.op == kMessage) messages_.insert(at - record.data);
+      if (inner.op != kConnection) continue;
+      if (auto fault = take_connection(inner); !fault.empty()) return fault;
     }
     return {};
   }
@@ -184,14 +210,18 @@ class Walker {
         !read_bytes(record.data, record.end, size, packed)) {
       return damaged;
     }
-    std::string chunk(chunk_size_, '\0');
+    // By calloc, which leaves zeros to be made when they are written to: what is announced and not
+    // there takes no memory, and reads as a record without a header.
+    const std::unique_ptr<void, Free> unpacked(std::calloc(std::max(chunk_size_, 1U), 1));
+    if (!unpacked) return damaged;
+    auto* const bytes = static_cast<std::uint8_t*>(unpacked.get());
     try {
-      stream.decompress(reinterpret_cast<std::uint8_t*>(chunk.data()), chunk_size_,
-                        reinterpret_cast<std::uint8_t*>(packed.data()),
+      stream.decompress(bytes, chunk_size_, reinterpret_cast<std::uint8_t*>(packed.data()),
                         static_cast<unsigned int>(size));
     } catch (const std::exception&) {
       return damaged;
     }
+    const std::string_view chunk(reinterpret_cast<const char*>(bytes), chunk_size_);
     for (std::size_t at = 0; at < chunk.size();) {
       const std::size_t begin = at;
       std::string_view header;
@@ -199,7 +229,8 @@ class Walker {
       Fields fields;
       std::uint8_t op = 0;
       if (!read_part(chunk, at, header) || !parse_fields(std::string(header), fields) ||
-          !read_field(fields, "op", op) || !read_part(chunk, at, data)) {
+          !read_field(fields, "op", op) || !read_part(chunk, at, data) ||
+          (op == kConnection && !parse_fields(std::string(data), fields))) {
         return fmt::format("the chunk at byte {} holds a damaged record", record.begin);
       }
       if (op == kMessage) messages_.insert(begin);
@@ -208,12 +239,12 @@ class Walker {
   }
 
   // Bytes behind their length; `at` moves on. False when they run over the end.
-  static bool read_part(const std::string& bytes, std::size_t& at, std::string_view& part) {
+  static bool read_part(std::string_view bytes, std::size_t& at, std::string_view& part) {
     std::uint32_t length = 0;
     if (!read_number(bytes, at, length)) return false;
     at += sizeof(length);
     if (length > bytes.size() - at) return false;
-    part = std::string_view(bytes).substr(at, length);
+    part = bytes.substr(at, length);
     at += length;
     return true;
   }
@@ -251,7 +282,7 @@ class Walker {
     return stream_.good();
   }
 
-  std::ifstream& stream_;
+  std::istream& stream_;
   std::uint64_t size_;
   std::uint64_t index_begin_ = 0;
   bool starts_index_ = false;
@@ -262,6 +293,22 @@ class Walker {
 
 }  // namespace
 
+Result<void> check_bag_layout(std::istream& stream, std::uint64_t size, const std::string& who) {
+  std::string line(std::strlen(kVersionLine), '\0');
+  stream.read(line.data(), static_cast<std::streamsize>(line.size()));
+  if (!stream || line != kVersionLine) {
+    return Error{ErrorCode::kBadInput,
+                 fmt::format("{}: expected a ROS 1 bag (\"#ROSBAG V2.0\"), got something else; of "
+                             "an older version, make one with `rosbag fix`",
+                             who)};
+  }
+  const Fault fault = Walker(stream, size).walk();
+  if (fault.empty()) return {};
+  return Error{
+      ErrorCode::kBadInput,
+      fmt::format("{}: expected a whole bag, but {}; `rosbag reindex` may save it", who, fault)};
+}
+
 Result<void> check_bag_layout(const std::filesystem::path& file) {
   std::error_code failure;
   const auto size = std::filesystem::file_size(file, failure);
@@ -269,19 +316,7 @@ Result<void> check_bag_layout(const std::filesystem::path& file) {
   if (failure || !stream) {
     return Error{ErrorCode::kIo, file.string() + ": cannot be read; check path and permissions"};
   }
-  std::string line(std::strlen(kVersionLine), '\0');
-  stream.read(line.data(), static_cast<std::streamsize>(line.size()));
-  if (!stream || line != kVersionLine) {
-    return Error{ErrorCode::kBadInput,
-                 fmt::format("{}: expected a ROS 1 bag (\"#ROSBAG V2.0\"), got something else; of "
-                             "an older version, make one with `rosbag fix`",
-                             file.string())};
-  }
-  const Fault fault = Walker(stream, size).walk();
-  if (fault.empty()) return {};
-  return Error{ErrorCode::kBadInput,
-               fmt::format("{}: expected a whole bag, but {}; `rosbag reindex` may save it",
-                           file.string(), fault)};
+  return check_bag_layout(stream, size, file.string());
 }
 
 }  // namespace flowdlo::recording

@@ -9,6 +9,16 @@
 namespace flowdlo::recording {
 namespace {
 
+// A progressive file of 64 kB may announce thousands of passes over 4096 x 4096 px; libjpeg writes
+// 10 of them.
+constexpr int kMostScans = 32;
+
+/// Called between rows.
+void count_scans(j_common_ptr state) {
+  const auto* decoder = reinterpret_cast<j_decompress_ptr>(state);
+  if (decoder->input_scan_number > kMostScans) tools::JpegErrorJump::jump(state);
+}
+
 /// A file that is cut short comes as a warning, and is an error here; what cameras get wrong
 /// otherwise is read over.
 void judge(j_common_ptr state, int level) {
@@ -18,10 +28,12 @@ void judge(j_common_ptr state, int level) {
 struct Decoder {
   jpeg_decompress_struct state{};
   tools::JpegErrorJump handler{};
+  jpeg_progress_mgr progress{};
 
   Decoder() {
     handler.attach(state);
     handler.base.emit_message = judge;
+    progress.progress_monitor = count_scans;
   }
   Decoder(const Decoder&) = delete;
   Decoder& operator=(const Decoder&) = delete;
@@ -30,6 +42,7 @@ struct Decoder {
   bool read_header(std::span<const std::uint8_t> bytes) {
     if (setjmp(handler.back) != 0) return false;
     jpeg_create_decompress(&state);
+    state.progress = &progress;
     jpeg_mem_src(&state, bytes.data(), bytes.size());
     return jpeg_read_header(&state, TRUE) == JPEG_HEADER_OK;
   }

@@ -1,0 +1,15 @@
+// Footprint: what a process holds of the machine.
+#pragma once
+
+namespace flowdlo::soak {
+
+struct Footprint {
+  double resident_mb = 0;  ///< after free memory went back to the system
+  int descriptors = 0;     ///< open files
+  int threads = 0;
+};
+
+/// Of this process, now.
+[[nodiscard]] Footprint footprint();
+
+}  // namespace flowdlo::soak
