@@ -129,19 +129,19 @@ TEST(BagMessage, LengthsBeyondTheMessageTakeNoMemory) {
   EXPECT_LT(grown_mb, 5);
 }
 
-// A bag's length of `model`'s coefficients is made to say more than there are.
+// What is changed is the length of the lens' coefficients, which stands behind its name.
 TEST(BagMessage, BagThatAnnouncesAnArrayTakesNoMemoryForIt) {
   const TemporaryFolder scratch;
   const fs::path file = scratch.path() / "small.bag";
   {
     BagWriter bag(file, Packing::kPlain);
     CameraMessage camera;
-    camera.model = "plumb_bob";
+    camera.model = "lens of a test";
     camera.d = {0.5};
     bag.camera("/info", kStart_ns, camera);
   }
   std::string bytes = read_text(file);
-  const auto length = bytes.find("plumb_bob") + std::strlen("plumb_bob");
+  const auto length = bytes.find("lens of a test") + std::strlen("lens of a test");
   for (const std::uint32_t announced : {kArray, kOverflowingArray}) {
     std::memcpy(bytes.data() + length, &announced, sizeof(announced));
     write_text(file, bytes);
