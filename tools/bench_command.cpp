@@ -10,7 +10,6 @@
 #include <filesystem>
 #include <memory>
 #include <system_error>
-#include <thread>
 
 #include "bench_report.hpp"
 #include "flowdlo/estimator.hpp"
@@ -19,6 +18,7 @@
 #include "model_options.hpp"
 #include "progress_bar.hpp"
 #include "resident_memory.hpp"
+#include "threads/count.hpp"
 
 namespace flowdlo::tools {
 namespace {
@@ -56,12 +56,6 @@ double peak_resident_mb() {
   return static_cast<double>(usage.ru_maxrss) * 1024.0 / 1.0e6;  // Linux counts in KiB
 }
 
-// As Config::threads has it: 0 is one for each core.
-int threads_of(const Config& config) {
-  if (config.threads > 0) return config.threads;
-  return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-}
-
 Result<BenchReport> measure(const BenchOptions& options, const FrameFolder& folder) {
   const auto start = Clock::now();
   auto estimator = Estimator::create(options.config);
@@ -70,7 +64,7 @@ Result<BenchReport> measure(const BenchOptions& options, const FrameFolder& fold
                      folder.width,
                      folder.height,
                      estimator->device(),
-                     threads_of(options.config),
+                     threads::count(options.config.threads),
                      estimator->draws(),
                      estimator->euler_steps(),
                      since_ms(start),

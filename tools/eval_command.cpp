@@ -9,7 +9,6 @@
 #include <memory>
 #include <string>
 #include <system_error>
-#include <thread>
 #include <utility>
 #include <vector>
 
@@ -33,6 +32,7 @@
 #include "progress_bar.hpp"
 #include "recorded_frame.hpp"
 #include "recording_arguments.hpp"
+#include "threads/count.hpp"
 
 namespace flowdlo::tools {
 namespace {
@@ -112,9 +112,9 @@ Result<eval::RunInfo> describe(const EvalOptions& options, const std::vector<Fra
 Result<std::vector<eval::Evaluator>> create_evaluators(const EvalOptions& options,
                                                        std::size_t rows) {
   Config config = options.config;
-  const int jobs = static_cast<int>(std::min(rows, static_cast<std::size_t>(options.jobs)));
-  const int cores = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-  if (config.threads == 0 && jobs > 1) config.threads = std::max(1, cores / jobs);
+  const auto wanted = static_cast<std::size_t>(threads::count(options.jobs));
+  const int jobs = static_cast<int>(std::min(rows, wanted));
+  if (config.threads == 0 && jobs > 1) config.threads = std::max(1, threads::cores() / jobs);
   std::vector<eval::Evaluator> evaluators;
   for (int i = 0; i < jobs; ++i) {
     auto evaluator = eval::Evaluator::create(config, options.contenders);

@@ -10,13 +10,13 @@
 #include <mutex>
 #include <optional>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "contact_sheet.hpp"
 #include "progress_bar.hpp"
 #include "synth/synthetic_frame.hpp"
 #include "synth_folder.hpp"
+#include "threads/team.hpp"
 
 namespace flowdlo::tools {
 namespace {
@@ -88,11 +88,6 @@ Result<std::vector<Job>> jobs_of(const SynthOptions& options) {
   return jobs;
 }
 
-int threads_of(const SynthOptions& options) {
-  if (options.threads > 0) return options.threads;
-  return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-}
-
 /// Runs the jobs on several threads; the first fault ends all of them.
 class Crew {
  public:
@@ -104,9 +99,7 @@ class Crew {
         sheet_(options.sheet.empty() ? 0 : std::min<std::size_t>(jobs.size(), kMostOnASheet)) {}
 
   Result<void> work() {
-    std::vector<std::thread> threads;
-    for (int k = 0; k < threads_of(options_); ++k) threads.emplace_back([this] { work_off(); });
-    for (auto& thread : threads) thread.join();
+    threads::work_together(threads::count(options_.threads), [this](int) { work_off(); });
     if (fault_) return *fault_;
     return {};
   }

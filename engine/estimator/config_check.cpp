@@ -9,10 +9,16 @@ namespace flowdlo::estimator {
 
 Result<void> check(const Config& config) {
   std::string faults;
+  const auto fault = [&](const std::string& line) {
+    if (!faults.empty()) faults += '\n';
+    faults += line;
+  };
   const auto expect = [&](bool fine, const char* field, const char* expected, int got) {
-    if (fine) return;
-    faults += fmt::format("{}Config.{}: expected {}, got {}", faults.empty() ? "" : "\n", field,
-                          expected, got);
+    if (!fine) fault(fmt::format("Config.{}: expected {}, got {}", field, expected, got));
+  };
+  const auto expect_known = [&](auto choice, auto last, const char* field) {
+    const int got = static_cast<int>(choice);
+    expect(got >= 0 && got <= static_cast<int>(last), field, "one of its names", got);
   };
   expect(config.euler_steps >= 1 && config.euler_steps <= 64, "euler_steps", "1 to 64",
          config.euler_steps);
@@ -22,11 +28,19 @@ Result<void> check(const Config& config) {
          config.max_width);
   expect(config.max_height >= 1 && config.max_height <= 4096, "max_height", "1 to 4096",
          config.max_height);
+  expect_known(config.quality, Quality::kFast, "quality");
+  expect_known(config.prior, PriorChoice::kRefined, "prior");
+  expect_known(config.gate, GateChoice::kCalibrated, "gate");
+  if (config.device.empty()) {
+    fault(
+        "Config.device: expected \"auto\", \"cpu\", \"vulkan\", part of a name or a UUID, got "
+        "nothing; \"auto\" always finds one");
+  }
   expect(config.device_timeout_ms >= 0, "device_timeout_ms", "at least 0",
          config.device_timeout_ms);
   if (!std::isfinite(config.rope_length_m) || config.rope_length_m < 0) {
-    faults += fmt::format("{}Config.rope_length_m: expected metres, or 0 for unknown, got {}",
-                          faults.empty() ? "" : "\n", config.rope_length_m);
+    fault(fmt::format("Config.rope_length_m: expected metres, or 0 for unknown, got {}",
+                      config.rope_length_m));
   }
   if (faults.empty()) return {};
   return Error{ErrorCode::kBadInput, faults};

@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <exception>
 #include <filesystem>
 #include <utility>
 
 #include "estimator/self_test.hpp"
 #include "flowdlo/devices.hpp"
+#include "guard/caught.hpp"
 #include "reference/program.hpp"
 
 #ifdef FLOWDLO_WITH_VULKAN
@@ -102,8 +104,9 @@ Result<BackEnd> choose_back_end(const Config& config) {
 }  // namespace flowdlo::estimator
 
 namespace flowdlo {
+namespace {
 
-DeviceSurvey survey_devices(bool self_test) {
+DeviceSurvey surveyed(bool self_test) {
   DeviceSurvey survey;
 #ifdef FLOWDLO_WITH_VULKAN
   vulkan::Survey found = vulkan::survey();
@@ -131,6 +134,18 @@ DeviceSurvey survey_devices(bool self_test) {
   survey.auto_choice = "cpu";
 #endif
   return survey;
+}
+
+}  // namespace
+
+DeviceSurvey survey_devices(bool self_test) {
+  try {
+    return surveyed(self_test);
+  } catch (const std::exception&) {
+    return {.vulkan = {},
+            .loader = guard::caught("survey_devices").message,
+            .auto_choice = "cpu"};  // needs no Vulkan, and no memory to be said
+  }
 }
 
 }  // namespace flowdlo

@@ -1,13 +1,12 @@
 // Estimator: the one file that sees every room. Chapter 3 of the thesis, Figure 3.1.
 #include "flowdlo/estimator.hpp"
 
-#include <fmt/format.h>
+#include <unistd.h>
 #ifdef __GLIBC__
 #include <malloc.h>
 #endif
 
 #include <algorithm>
-#include <exception>
 #include <future>
 #include <vector>
 
@@ -24,24 +23,14 @@
 #include "flow/sampler.hpp"
 #include "gate/calibrated.hpp"
 #include "gate/gate.hpp"
+#include "guard/guarded.hpp"
 #include "prior/prior.hpp"
+#include "threads/aside.hpp"
 #include "weights/kept_file.hpp"
 #include "weights/weights.hpp"
 
 namespace flowdlo {
 namespace {
-
-/// Nothing that a dependency throws leaves the library.
-template <class Work>
-auto guarded(const char* who, const Work& work) -> decltype(work()) {
-  try {
-    return work();
-  } catch (const std::exception& thrown) {
-    return Error{
-        ErrorCode::kInternal,
-        fmt::format("{}: expected no exception, got \"{}\"; please report it", who, thrown.what())};
-  }
-}
 
 /// A rope rarely covers more of an image than this; a denser mask makes the sampler grow once.
 constexpr int kCloudShare = 4;
@@ -161,6 +150,7 @@ struct FLOWDLO_HIDDEN Estimator::Impl {
   flow::WeightsSource weights;
   std::string device;
   flow::Sampler sampler;
+  pid_t process = ::getpid();  // in a process forked from this one threads and device are missing
 
   static Result<std::unique_ptr<Impl>> create(const Config& config);
   Result<Estimate> estimate(const Frame& frame, Tensors* tensors);
@@ -179,7 +169,7 @@ Result<std::unique_ptr<Estimator::Impl>> Estimator::Impl::create(const Config& w
   if (!file) return file.error();
   // Opening a driver takes as long as reading the weights: side by side, where a thread is to be
   // had.
-  auto choice = std::async([&] { return estimator::choose_back_end(wanted); });
+  auto choice = threads::aside(true, [&] { return estimator::choose_back_end(wanted); });
   auto loaded = weights::load_and_keep(*file);
   auto back_end = choice.get();
   if (!loaded) return loaded.error();
@@ -197,6 +187,7 @@ Result<std::unique_ptr<Estimator::Impl>> Estimator::Impl::create(const Config& w
 Result<flow::Prediction> Estimator::Impl::sample(const flow::SampleInput& input) {
   auto prediction = sampler.sample(input);
   if (prediction || config.device != "auto" || device == "cpu") return prediction;
+  if (prediction.error().code == ErrorCode::kOutOfMemory) return prediction;  // the host's
   const auto cpu = estimator::cpu_back_end(config.threads);
   auto replacement = flow::Sampler::create(weights, cpu.make_program, sampler_config(config));
   if (!replacement) return prediction;
@@ -245,8 +236,7 @@ std::vector<int> Estimator::Impl::assign(
 std::future<estimator::SecondLook> Estimator::Impl::look_again(
     const estimator::Conditions& conditions, const Frame& frame, double& readings_ms) const {
   const bool aside = calibrated() && config.threads != 1 && estimator::in_doubt(conditions);
-  const auto policy = aside ? std::launch::async : std::launch::deferred;
-  return std::async(policy, [&, calibrated = calibrated()] {
+  return threads::aside(aside, [&, calibrated = calibrated()] {
     if (!calibrated) return estimator::SecondLook{1, conditions.hypotheses};
     estimator::Stopwatch watch;
     auto look = estimator::look_again(conditions, frame, config.rope_length_m, prior_kind(),
@@ -314,26 +304,51 @@ Result<Estimate> Estimator::Impl::estimate(const Frame& frame, Tensors* tensors)
 }
 
 Result<Estimator> Estimator::create(const Config& config) {
-  auto impl = guarded("Estimator::create", [&] { return Impl::create(config); });
-  if (!impl) return impl.error();
-  return_free_memory();
-  return Estimator(*std::move(impl));
+  return guard::guarded("Estimator::create", [&]() -> Result<Estimator> {
+    auto impl = Impl::create(config);
+    if (!impl) return impl.error();
+    return_free_memory();
+    return Estimator(*std::move(impl));
+  });
 }
 
-Result<Estimate> Estimator::estimate(const Frame& frame) {
-  return guarded("Estimator::estimate", [&] { return impl_->estimate(frame, nullptr); });
+Result<Estimate> Estimator::estimate(const Frame& frame, Tensors* tensors) {
+  return guard::guarded("Estimator::estimate", [&]() -> Result<Estimate> {
+    if (!impl_) {
+      return Error{ErrorCode::kBadInput,
+                   "Estimator: expected one in use, got one that was moved from; make a new one"};
+    }
+    if (impl_->process != ::getpid()) {
+      return Error{ErrorCode::kDeviceLost,
+                   "Estimator: expected the process that made it, got one forked from there, "
+                   "without its threads and device; make a new one"};
+    }
+    return impl_->estimate(frame, tensors);
+  });
 }
+
+Result<Estimate> Estimator::estimate(const Frame& frame) { return estimate(frame, nullptr); }
 
 Result<Estimate> Estimator::estimate(const Frame& frame, Tensors& tensors) {
-  return guarded("Estimator::estimate", [&] { return impl_->estimate(frame, &tensors); });
+  return estimate(frame, &tensors);
 }
 
-const std::string& Estimator::device() const { return impl_->device; }
+const std::string& Estimator::device() const {
+  static const std::string none;
+  return impl_ ? impl_->device : none;
+}
 
-int Estimator::euler_steps() const { return impl_->config.euler_steps; }
-int Estimator::draws() const { return impl_->config.draws; }
+int Estimator::euler_steps() const { return impl_ ? impl_->config.euler_steps : 0; }
+int Estimator::draws() const { return impl_ ? impl_->config.draws : 0; }
 
-Estimator::Estimator(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+/// In a process forked from its own it is left as it is, for the system to take: its threads are
+/// not there to be joined, a driver must not be called about objects of another process, and a
+/// thread may have been at work in it when the process was forked.
+void Estimator::LetGo::operator()(Impl* impl) const noexcept {
+  if (impl->process == ::getpid()) delete impl;
+}
+
+Estimator::Estimator(std::unique_ptr<Impl> impl) : impl_(impl.release()) {}
 Estimator::Estimator(Estimator&&) noexcept = default;
 Estimator& Estimator::operator=(Estimator&&) noexcept = default;
 Estimator::~Estimator() = default;

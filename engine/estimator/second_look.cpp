@@ -4,14 +4,14 @@
 #include <atomic>
 #include <cmath>
 #include <cstddef>
-#include <exception>
-#include <system_error>
-#include <thread>
+#include <new>
 
 #include "estimator/confidence.hpp"
 #include "gate/tube_score.hpp"
 #include "geometry/polyline.hpp"
+#include "guard/guarded.hpp"
 #include "path/readings.hpp"
+#include "threads/team.hpp"
 
 namespace flowdlo::estimator {
 namespace {
@@ -22,21 +22,22 @@ constexpr double kOddsScore = 1;    // score that makes a hypothesis e times as 
 
 using Reading = std::vector<Hypothesis>;  // what one reading brought forth, best first
 
-/// What one reading makes of the frame; nothing where it fails. Throws nothing: what leaves a
-/// thread of its own would end the process.
+/// What one reading makes of the frame; nothing where it fails.
 Reading read_as(path::Reading kind, const Conditions& conditions, const Frame& frame,
-                double rope_length_m, weights::PriorKind prior_kind) noexcept {
-  try {
+                double rope_length_m, weights::PriorKind prior_kind) {
+  auto reading = guard::guarded("second look", [&]() -> Result<Reading> {
     const auto paths = path::trace_as(kind, frame, conditions.paths.rope_width_px,
                                       {.rope_length_m = rope_length_m});
-    if (!paths) return {};
-    auto lifted = lift_all(*paths, conditions.cloud, conditions.visible, frame, prior_kind);
-    if (!lifted) return {};
-    if (lifted->size() > kOfEach) lifted->resize(kOfEach);
-    return *std::move(lifted);
-  } catch (const std::exception&) {
+    if (!paths) return paths.error();
+    return lift_all(*paths, conditions.cloud, conditions.visible, frame, prior_kind);
+  });
+  if (!reading) {
+    // A reading that is left out for want of memory would make the frame's estimate another one.
+    if (reading.error().code == ErrorCode::kOutOfMemory) throw std::bad_alloc();
     return {};
   }
+  if (reading->size() > kOfEach) reading->resize(kOfEach);
+  return *std::move(reading);
 }
 
 /// What each reading makes of the frame, those that fail left out.
@@ -45,21 +46,12 @@ std::vector<Reading> read(const std::vector<path::Reading>& kinds, const Conditi
                           int threads) {
   std::vector<Reading> readings(kinds.size());
   std::atomic<std::size_t> next = 0;
-  const auto work = [&] {
+  const int workers = std::min(threads::count(threads), static_cast<int>(kinds.size()));
+  threads::work_together(std::max(workers, 1), [&](int) {
     for (std::size_t i = next++; i < kinds.size(); i = next++) {
       readings[i] = read_as(kinds[i], conditions, frame, rope_length_m, prior_kind);
     }
-  };
-  const std::size_t cores = std::max(1U, std::thread::hardware_concurrency());
-  const std::size_t workers = threads > 0 ? static_cast<std::size_t>(threads) : cores;
-  {
-    std::vector<std::jthread> others;
-    try {
-      while (others.size() + 1 < std::min(workers, kinds.size())) others.emplace_back(work);
-    } catch (const std::system_error&) {  // no more threads to be had: those there are do it
-    }
-    work();
-  }
+  });
   std::erase_if(readings, [](const Reading& reading) { return reading.empty(); });
   return readings;
 }

@@ -6,6 +6,7 @@
 
 #include "flow/gaussian_source.hpp"
 #include "flow/velocity_model.hpp"
+#include "guard/guarded.hpp"
 
 namespace flowdlo::flow {
 namespace {
@@ -113,6 +114,7 @@ Result<void> Sampler::build() {
   auto built = program.build();
   if (!built) return built;
   program.write(handles_.source, source_);
+  built_ = true;
   return {};
 }
 
@@ -129,19 +131,27 @@ Result<Sampler> Sampler::create(WeightsSource weights, ProgramFactory factory,
   return sampler;
 }
 
-Result<void> Sampler::ensure_capacity(const SampleInput& input) {
-  const Capacity need = needed(input);
-  Capacity& have = config_.capacity;
+bool Sampler::fits(const Capacity& need) const {
+  const Capacity& have = config_.capacity;
   const bool depth_fits = !handles_.depth || need.image_pixels <= have.image_pixels;
   const bool cloud_fits = !handles_.cloud || need.cloud_points <= have.cloud_points;
-  if (cloud_fits && need.field_texels <= have.field_texels && depth_fits) {
-    return {};
+  return cloud_fits && need.field_texels <= have.field_texels && depth_fits;
+}
+
+Result<void> Sampler::ensure_capacity(const SampleInput& input) {
+  const Capacity need = needed(input);
+  if (built_ && fits(need)) return {};
+  const Capacity have = config_.capacity;
+  if (!fits(need)) {
+    config_.capacity = {.cloud_points = std::max(need.cloud_points, have.cloud_points),
+                        .field_texels = std::max(need.field_texels, have.field_texels),
+                        .image_pixels = std::max(need.image_pixels, have.image_pixels)};
   }
-  have = {.cloud_points = std::max(need.cloud_points, have.cloud_points),
-          .field_texels = std::max(need.field_texels, have.field_texels),
-          .image_pixels = std::max(need.image_pixels, have.image_pixels)};
+  built_ = false;
   program_.reset();  // frees the old memory first
-  return build();
+  auto built = guard::guarded("Sampler", [&] { return build(); });
+  if (!built) config_.capacity = have;  // a frame of the size planned for may still find room
+  return built;
 }
 
 void Sampler::write_cloud(const evidence::Cloud& cloud) {

@@ -65,7 +65,8 @@ class Sampler {
   [[nodiscard]] static Result<Sampler> create(std::shared_ptr<const weights::Weights> weights,
                                               ProgramFactory factory, const SamplerConfig& config);
 
-  /// One run. A frame beyond the capacity makes the program anew, once, with more.
+  /// One run. A frame beyond the capacity makes the program anew, once, with more; where that fails
+  /// the next frame tries again.
   [[nodiscard]] Result<Prediction> sample(const SampleInput& input);
 
   /// x_0 [D, 64, 4], normalised space; column 3 is zero.
@@ -91,6 +92,7 @@ class Sampler {
 
   Sampler(WeightsSource weights, ProgramFactory factory, const SamplerConfig& config);
   [[nodiscard]] Result<void> build();
+  [[nodiscard]] bool fits(const Capacity& need) const;
   [[nodiscard]] Result<void> ensure_capacity(const SampleInput& input);
   ops::Tensor declare_visible();
   void write(const SampleInput& input);
@@ -104,6 +106,7 @@ class Sampler {
   SamplerConfig config_;
   std::vector<float> source_;
   std::unique_ptr<ops::Program> program_;
+  bool built_ = false;  // else the program is none, or half of one
   Handles handles_;
   std::vector<float> staging_;       // reused by every call
   evidence::VisiblePoints visible_;  // the last, where the host samples them

@@ -8,6 +8,7 @@
 
 #include "frame/faults.hpp"
 #include "frame/limits.hpp"
+#include "guard/guarded.hpp"
 
 namespace flowdlo {
 namespace {
@@ -57,9 +58,7 @@ void check_count(const char* name, std::size_t count, const Frame& frame, int ch
       fmt::format("Frame.{}: expected {} values ({}), got {}", name, expected, shape, count));
 }
 
-}  // namespace
-
-Result<void> validate(const Frame& frame) {
+Result<void> checked(const Frame& frame) {
   Faults faults;
   check_size(frame, faults);
   check_focal_length("fx", frame.intrinsics.fx, faults);
@@ -73,6 +72,12 @@ Result<void> validate(const Frame& frame) {
   }
   if (!faults.empty()) return faults.error();
   return {};
+}
+
+}  // namespace
+
+Result<void> validate(const Frame& frame) {
+  return guard::guarded("validate", [&] { return checked(frame); });
 }
 
 }  // namespace flowdlo

@@ -16,6 +16,7 @@
 #include "frame/frame_name.hpp"
 #include "frame/limits.hpp"
 #include "frame/png.hpp"
+#include "guard/guarded.hpp"
 
 namespace flowdlo {
 namespace {
@@ -183,9 +184,7 @@ std::vector<float> metres_of(const cv::Mat& depth, double scale_m) {
   return depth_m;
 }
 
-}  // namespace
-
-Result<FrameFolder> load_frame_folder(const fs::path& folder) {
+Result<FrameFolder> load(const fs::path& folder) {
   std::error_code failure;
   if (!fs::is_directory(folder, failure)) {
     return Error{ErrorCode::kIo,
@@ -213,6 +212,12 @@ Result<FrameFolder> load_frame_folder(const fs::path& folder) {
                      truth};
   if (const auto valid = validate(loaded.frame()); !valid) return valid.error();
   return loaded;
+}
+
+}  // namespace
+
+Result<FrameFolder> load_frame_folder(const fs::path& folder) {
+  return guard::guarded("load_frame_folder", [&] { return load(folder); });
 }
 
 }  // namespace flowdlo

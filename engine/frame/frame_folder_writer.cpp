@@ -11,6 +11,7 @@
 #include "frame/limits.hpp"
 #include "frame/png.hpp"
 #include "frame/staged_files.hpp"
+#include "guard/guarded.hpp"
 
 namespace flowdlo {
 namespace {
@@ -78,10 +79,8 @@ void remove_stale(const fs::path& folder, const Frame& frame, const Centerline* 
   if (truth == nullptr) fs::remove(folder / "truth.csv", ignored);
 }
 
-}  // namespace
-
-Result<void> save_frame_folder(const fs::path& folder, const Frame& frame, double depth_scale,
-                               const Centerline* truth) {
+Result<void> save(const fs::path& folder, const Frame& frame, double depth_scale,
+                  const Centerline* truth) {
   if (auto valid = validate(frame); !valid) return valid;
   if (!(depth_scale > 0 && depth_scale <= frame::kMaxDepthScale_m)) {
     return Error{
@@ -99,6 +98,14 @@ Result<void> save_frame_folder(const fs::path& folder, const Frame& frame, doubl
   if (auto done = stage_all(staged, folder, frame, depth_scale, truth); !done) return done;
   remove_stale(folder, frame, truth);
   return staged.commit();
+}
+
+}  // namespace
+
+Result<void> save_frame_folder(const fs::path& folder, const Frame& frame, double depth_scale,
+                               const Centerline* truth) {
+  return guard::guarded("save_frame_folder",
+                        [&] { return save(folder, frame, depth_scale, truth); });
 }
 
 }  // namespace flowdlo

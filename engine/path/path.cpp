@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <exception>
 #include <opencv2/core.hpp>
 #include <string>
 
+#include "guard/guarded.hpp"
 #include "path/assemble.hpp"
 #include "path/bonds.hpp"
 #include "path/cover.hpp"
@@ -203,11 +203,7 @@ Result<Traversals> trace_region(const Frame& frame, const TraceConfig& config) {
 }  // namespace
 
 Result<Traversals> trace(const Frame& frame, const TraceConfig& config) {
-  try {
-    return trace_region(frame, config);
-  } catch (const std::exception& error) {  // OpenCV and the allocator throw
-    return Error{ErrorCode::kInternal, std::string("path: ") + error.what()};
-  }
+  return guard::guarded("path", [&] { return trace_region(frame, config); });
 }
 
 }  // namespace flowdlo::path

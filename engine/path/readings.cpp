@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <exception>
 #include <opencv2/imgproc.hpp>
 #include <string>
 
+#include "guard/guarded.hpp"
 #include "path/region.hpp"
 #include "path/window.hpp"
 
@@ -134,11 +134,8 @@ std::vector<Reading> further_readings(const Frame& frame, float rope_width_px) {
 
 Result<Traversals> trace_as(Reading reading, const Frame& frame, float rope_width_px,
                             const TraceConfig& config) {
-  try {
-    return trace_reread(reading, frame, rope_width_px, config);
-  } catch (const std::exception& error) {  // OpenCV and the allocator throw
-    return Error{ErrorCode::kInternal, std::string("path: ") + error.what()};
-  }
+  return guard::guarded("path",
+                        [&] { return trace_reread(reading, frame, rope_width_px, config); });
 }
 
 }  // namespace flowdlo::path

@@ -1,6 +1,8 @@
 #include "reference/crew.hpp"
 
-#include <algorithm>
+#include <unistd.h>
+
+#include "threads/team.hpp"
 
 namespace flowdlo::reference {
 namespace {
@@ -25,28 +27,29 @@ void await_change(const std::atomic<std::uint32_t>& value, std::uint32_t old) {
   value.wait(old, std::memory_order_acquire);
 }
 
-int count_of(int threads) {
-  if (threads > 0) return threads;
-  return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-}
-
 }  // namespace
 
-Crew::Crew(int threads) : missing_(count_of(threads)) {
-  const int workers = count_of(threads) - 1;
-  workers_.reserve(static_cast<std::size_t>(workers));
-  for (int i = 1; i <= workers; ++i) workers_.emplace_back([this, i] { serve(i); });
+Crew::Crew(int threads)
+    : process_(::getpid()), workers_(std::make_unique<std::vector<std::thread>>()) {
+  *workers_ = threads::start(1, threads::count(threads), [this](int i) { serve(i); });
+  size_ += static_cast<int>(workers_->size());
+  missing_ = size_;
 }
 
 Crew::~Crew() {
+  if (process_ != ::getpid()) {
+    // Their handles may neither be joined nor detached here, and their destructor ends the process.
+    (void)workers_.release();  // NOLINT: given up on purpose
+    return;
+  }
   job_ = {};
   round_.fetch_add(1, std::memory_order_release);
   round_.notify_all();
-  for (std::thread& worker : workers_) worker.join();
+  for (std::thread& worker : *workers_) worker.join();
 }
 
 void Crew::meet() {
-  if (workers_.empty()) return;
+  if (size_ == 1) return;
   const std::uint32_t phase = phase_.load(std::memory_order_acquire);
   if (missing_.fetch_sub(1, std::memory_order_acq_rel) > 1) {
     await_change(phase_, phase);
@@ -59,7 +62,7 @@ void Crew::meet() {
 
 void Crew::run(const Job& job) {
   job_ = job;
-  if (!workers_.empty()) {
+  if (size_ > 1) {
     round_.fetch_add(1, std::memory_order_release);
     round_.notify_all();
   }

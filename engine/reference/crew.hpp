@@ -1,8 +1,11 @@
 // Crew: a fixed number of threads that work on one thing together, and meet at barriers.
 #pragma once
 
+#include <sys/types.h>
+
 #include <atomic>
 #include <cstdint>
+#include <memory>
 #include <thread>
 #include <type_traits>
 #include <vector>
@@ -13,15 +16,17 @@ namespace flowdlo::reference {
 /// construction.
 class Crew {
  public:
-  /// `threads` with the caller's own; 0: one for each core.
+  /// threads::count(threads) with the caller's own, or as many as can be started.
   explicit Crew(int threads);
+  /// In a process that was forked from the crew's own there are no threads to wait for.
   ~Crew();
   Crew(const Crew&) = delete;
   Crew& operator=(const Crew&) = delete;
 
-  [[nodiscard]] int size() const { return static_cast<int>(workers_.size()) + 1; }
+  [[nodiscard]] int size() const { return size_; }
 
-  /// work(thread) on every thread, 0 being the caller; returns when all are done. Not reentrant.
+  /// work(thread) on every thread, 0 being the caller; returns when all are done. Not reentrant,
+  /// and the work must throw nothing: the others would wait for it at a barrier for ever.
   template <class Work>
   void run(const Work& work) {
     run({&work, [](const void* which, int thread) { (*static_cast<const Work*>(which))(thread); }});
@@ -39,7 +44,9 @@ class Crew {
   void run(const Job& job);
   void serve(int thread);
 
-  std::vector<std::thread> workers_;
+  const pid_t process_;  // whose threads they are
+  std::unique_ptr<std::vector<std::thread>> workers_;
+  int size_ = 1;
   Job job_;                              // no work: the workers end
   std::atomic<std::uint32_t> round_{0};  // of run(): its change starts the workers
   std::atomic<std::uint32_t> phase_{0};  // of meet(): its change lets everyone go on

@@ -73,12 +73,12 @@ Result<Buffer> Buffer::create(const Device& device, VkDeviceSize bytes, VkBuffer
                                         .allocationSize = needs.size,
                                         .memoryTypeIndex = *type};
   VkDeviceMemory memory = VK_NULL_HANDLE;
+  const VkResult made = api.vkAllocateMemory(device.handle(), &allocation, nullptr, &memory);
+  result.memory_ = Owned<VkDeviceMemory>(device.handle(), memory, api.vkFreeMemory);
   const auto allocated =
-      device.check(api.vkAllocateMemory(device.handle(), &allocation, nullptr, &memory),
-                   fmt::format("vkAllocateMemory({}, {} bytes)", name, needs.size));
+      device.check(made, fmt::format("vkAllocateMemory({}, {} bytes)", name, needs.size));
   if (!allocated) return allocated.error();
   device.name(VK_OBJECT_TYPE_DEVICE_MEMORY, memory, name);
-  result.memory_ = Owned<VkDeviceMemory>(device.handle(), memory, api.vkFreeMemory);
   result.buffer_ = *std::move(buffer);
   result.size_ = bytes;
   const auto bound =

@@ -7,8 +7,9 @@ namespace {
 
 ErrorCode code_of(VkResult result) {
   switch (result) {
-    case VK_ERROR_DEVICE_LOST:
     case VK_ERROR_OUT_OF_HOST_MEMORY:
+      return ErrorCode::kOutOfMemory;
+    case VK_ERROR_DEVICE_LOST:
     case VK_ERROR_OUT_OF_DEVICE_MEMORY:
     case VK_TIMEOUT:
       return ErrorCode::kDeviceLost;

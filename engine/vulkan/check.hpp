@@ -10,7 +10,8 @@
 namespace flowdlo::vulkan {
 
 /// VK_SUCCESS, or an error `operation: VK_ERROR_... on "device"`. `operation` is the call with what
-/// it is about, "vkCreateBuffer(scratch)". Out of memory and a lost device are kDeviceLost.
+/// it is about, "vkCreateBuffer(scratch)". A lost device, or one without memory, is kDeviceLost;
+/// a host without memory kOutOfMemory.
 [[nodiscard]] Result<void> check(VkResult result, std::string_view operation,
                                  std::string_view device);
 

@@ -5,37 +5,27 @@
 #include <algorithm>
 #include <array>
 #include <optional>
-#include <system_error>
-#include <thread>
 #include <vector>
 
+#include "threads/team.hpp"
 #include "vulkan/cooperative_matrix.hpp"
 
 namespace flowdlo::vulkan {
 namespace {
 
-constexpr std::size_t kMostCompilers = 8;  // threads
+constexpr int kMostCompilers = 8;  // threads
 
 /// Compiles all specs with a few threads; results stand in the order of `specs`.
 std::vector<Result<Kernel>> compile(const Device& device, const std::vector<KernelSpec>& specs) {
   std::vector<std::optional<Result<Kernel>>> results(specs.size());
   std::atomic<std::size_t> next = 0;
-  const auto work = [&] {
+  const int compilers =
+      std::min({static_cast<int>(specs.size()), kMostCompilers, threads::cores()});
+  threads::work_together(std::max(compilers, 1), [&](int) {
     for (std::size_t i = next++; i < specs.size(); i = next++) {
       results[i].emplace(Kernel::create(device, specs[i]));
     }
-  };
-  const std::size_t workers =
-      std::min({specs.size(), kMostCompilers,
-                std::size_t{std::max(1U, std::thread::hardware_concurrency())}});
-  std::vector<std::thread> threads;
-  try {
-    while (threads.size() + 1 < workers) threads.emplace_back(work);
-  } catch (const std::system_error&) {
-    // No more threads to be had: those that run, and this one, do it all.
-  }
-  work();
-  for (std::thread& thread : threads) thread.join();
+  });
 
   std::vector<Result<Kernel>> kernels;
   for (auto& result : results) kernels.push_back(*std::move(result));

@@ -62,8 +62,9 @@ class Device {
     Handle object = VK_NULL_HANDLE;
     const VkResult result = make(handle_, &info, nullptr, &object);
     if (result != VK_SUCCESS) return failed(result, type, object_name);
+    Owned<Handle> owned(handle_, object, destroy);
     name(type, object, object_name);
-    return Owned<Handle>(handle_, object, destroy);
+    return owned;
   }
 
   template <class Handle>

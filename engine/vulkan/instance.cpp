@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <exception>
 #include <string_view>
 
 #include "vulkan/check.hpp"
@@ -28,7 +29,10 @@ VKAPI_ATTR VkBool32 VKAPI_CALL on_message(VkDebugUtilsMessageSeverityFlagBitsEXT
                                           VkDebugUtilsMessageTypeFlagsEXT,
                                           const VkDebugUtilsMessengerCallbackDataEXT* data,
                                           void* log) {
-  static_cast<MessageLog*>(log)->add(data->pMessage != nullptr ? data->pMessage : "");
+  try {
+    static_cast<MessageLog*>(log)->add(data->pMessage != nullptr ? data->pMessage : "");
+  } catch (const std::exception&) {  // no memory for it; the driver would not survive the throw
+  }
   return VK_FALSE;
 }
 

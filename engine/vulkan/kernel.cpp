@@ -88,13 +88,13 @@ Result<Owned<VkPipeline>> create_pipeline(const Device& device, const KernelSpec
       .basePipelineHandle = VK_NULL_HANDLE,
       .basePipelineIndex = -1};
   VkPipeline pipeline = VK_NULL_HANDLE;
-  const auto created =
-      device.check(device.api().vkCreateComputePipelines(device.handle(), device.pipeline_cache(),
-                                                         1, &info, nullptr, &pipeline),
-                   fmt::format("vkCreateComputePipelines({})", spec.name()));
+  const VkResult made = device.api().vkCreateComputePipelines(
+      device.handle(), device.pipeline_cache(), 1, &info, nullptr, &pipeline);
+  Owned<VkPipeline> owned(device.handle(), pipeline, device.api().vkDestroyPipeline);
+  const auto created = device.check(made, fmt::format("vkCreateComputePipelines({})", spec.name()));
   if (!created) return created.error();
   device.name(VK_OBJECT_TYPE_PIPELINE, pipeline, spec.name());
-  return Owned<VkPipeline>(device.handle(), pipeline, device.api().vkDestroyPipeline);
+  return owned;
 }
 
 }  // namespace

@@ -214,7 +214,8 @@ Result<void> Program::run() {
   if (done) done = work_->submission.run(*work_->device, work_->commands, options_.timeout_ms);
   if (done) done = resources.invalidate_outputs(*work_->device);
   if (!done) {
-    lost_ = Error{ErrorCode::kDeviceLost, done.error().message};
+    lost_.emplace(Error{ErrorCode::kDeviceLost, {}});  // first: a copy of the words may fail
+    lost_->message = done.error().message;
     return *lost_;
   }
   const std::chrono::duration<double, std::milli> elapsed =

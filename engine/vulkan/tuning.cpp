@@ -55,7 +55,9 @@ Result<GemmChoice> best_of(const std::shared_ptr<Device>& device,
     const auto time_ms = try_gemm(device, candidate, options);
     if (!time_ms) {
       faults += fmt::format("{}{}", faults.empty() ? "" : "; ", time_ms.error().message);
-      if (time_ms.error().code == ErrorCode::kDeviceLost) return time_ms.error();
+      const ErrorCode code = time_ms.error().code;
+      // Neither says anything of the candidate.
+      if (code == ErrorCode::kDeviceLost || code == ErrorCode::kOutOfMemory) return time_ms.error();
       continue;
     }
     if (!best || *time_ms < kClearly * best_ms) {

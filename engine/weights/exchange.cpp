@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include "flowdlo/weights.hpp"
+#include "guard/guarded.hpp"
 #include "weights/fdw.hpp"
 #include "weights/file.hpp"
 #include "weights/metadata.hpp"
@@ -25,10 +26,7 @@ void check_digest(const std::map<std::string, std::string>& fields, const std::s
       ws::in_quotes(expected->second), got));
 }
 
-}  // namespace
-
-Result<void> export_safetensors(const std::filesystem::path& weights,
-                                const std::filesystem::path& output) {
+Result<void> exported(const std::filesystem::path& weights, const std::filesystem::path& output) {
   const auto file = ws::read_fdw(weights);
   if (!file) return file.error();
   std::vector<std::string> faults;
@@ -56,6 +54,8 @@ Result<void> export_safetensors(const std::filesystem::path& weights,
   return ws::write_file(output, parts);
 }
 
+}  // namespace
+
 Result<ws::FdwFile> ws::parse_exchanged(std::span<const std::uint8_t> bytes,
                                         const std::filesystem::path& file) {
   std::vector<std::string> faults;
@@ -78,13 +78,26 @@ Result<ws::FdwFile> ws::parse_exchanged(std::span<const std::uint8_t> bytes,
   return result;
 }
 
-Result<void> import_safetensors(const std::filesystem::path& input,
-                                const std::filesystem::path& weights) {
+namespace {
+
+Result<void> imported(const std::filesystem::path& input, const std::filesystem::path& weights) {
   const auto bytes = ws::read_file(input);
   if (!bytes) return bytes.error();
   const auto file = ws::parse_exchanged(bytes->view(), input);
   if (!file) return file.error();
   return ws::write_fdw(file->weights, file->types, weights);
+}
+
+}  // namespace
+
+Result<void> export_safetensors(const std::filesystem::path& weights,
+                                const std::filesystem::path& output) {
+  return guard::guarded("export_safetensors", [&] { return exported(weights, output); });
+}
+
+Result<void> import_safetensors(const std::filesystem::path& input,
+                                const std::filesystem::path& weights) {
+  return guard::guarded("import_safetensors", [&] { return imported(input, weights); });
 }
 
 }  // namespace flowdlo

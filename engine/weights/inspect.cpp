@@ -1,11 +1,13 @@
 // What a weights file holds, for people.
 #include "flowdlo/weights.hpp"
+#include "guard/guarded.hpp"
 #include "weights/fdw.hpp"
 #include "weights/metadata.hpp"
 
 namespace flowdlo {
+namespace {
 
-Result<WeightsInfo> inspect_weights(const std::filesystem::path& file) {
+Result<WeightsInfo> inspected(const std::filesystem::path& file) {
   auto read = weights::read_fdw(file);
   if (!read) return read.error();
   WeightsInfo info;
@@ -18,6 +20,12 @@ Result<WeightsInfo> inspect_weights(const std::filesystem::path& file) {
     info.tensors.push_back({std::move(tensor.name), std::move(tensor.shape), half ? "f16" : "f32"});
   }
   return info;
+}
+
+}  // namespace
+
+Result<WeightsInfo> inspect_weights(const std::filesystem::path& file) {
+  return guard::guarded("inspect_weights", [&] { return inspected(file); });
 }
 
 }  // namespace flowdlo

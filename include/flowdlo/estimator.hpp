@@ -13,23 +13,26 @@
 namespace flowdlo {
 
 /// Owns the device and the weights; create once, call per frame. One instance a thread: a call
-/// reuses its buffers. Calls on different instances may run at the same time.
+/// reuses its buffers. Calls on different instances may run at the same time. It belongs to the
+/// process that made it: in one that was forked from there it may be destroyed, and estimate()
+/// fails. An instance that was moved from fails as well, and answers nothing but that.
 class FLOWDLO_EXPORT Estimator {
  public:
-  /// Fails with kBadInput, kBadWeights or kNoDevice. The only call that reads files or compiles.
+  /// Fails with kBadInput, kBadWeights, kIo, kNoDevice or kOutOfMemory. The only call that reads
+  /// files or compiles.
   [[nodiscard]] static Result<Estimator> create(const Config& config);
 
-  /// Fails with kBadInput, kNoEvidence, kNoPath or kDeviceLost; never throws. A rejected
-  /// prediction is not a failure: the estimate is then the prior, with Source::kPrior.
+  /// Fails with kBadInput, kNoEvidence, kNoPath, kDeviceLost or kOutOfMemory; never throws. A
+  /// rejected prediction is not a failure: the estimate is then the prior, with Source::kPrior.
   [[nodiscard]] Result<Estimate> estimate(const Frame& frame);
 
   /// The same, and copies every tensor of spec section 3 (`--tensors`) to `tensors`.
   [[nodiscard]] Result<Estimate> estimate(const Frame& frame, Tensors& tensors);
 
-  /// "cpu", or the name of the Vulkan device in use.
+  /// "cpu", or the name of the Vulkan device in use. Moved from: empty.
   [[nodiscard]] const std::string& device() const;
 
-  /// K and D in use: Config's, or those that Quality::kFast stands for.
+  /// K and D in use: Config's, or those that Quality::kFast stands for. Moved from: 0.
   [[nodiscard]] int euler_steps() const;
   [[nodiscard]] int draws() const;
 
@@ -41,8 +44,12 @@ class FLOWDLO_EXPORT Estimator {
 
  private:
   struct Impl;
+  struct FLOWDLO_HIDDEN LetGo {
+    void operator()(Impl* impl) const noexcept;
+  };
   FLOWDLO_HIDDEN explicit Estimator(std::unique_ptr<Impl> impl);
-  std::unique_ptr<Impl> impl_;
+  FLOWDLO_HIDDEN Result<Estimate> estimate(const Frame& frame, Tensors* tensors);
+  std::unique_ptr<Impl, LetGo> impl_;
 };
 
 }  // namespace flowdlo

@@ -10,14 +10,15 @@ namespace flowdlo {
 
 /// Why a call has no value. Stable: programs may switch on it.
 enum class ErrorCode {
-  kBadInput,    ///< a frame, file or configuration violates its contract
-  kNoEvidence,  ///< no mask pixel carries a usable depth
-  kNoPath,      ///< the mask holds no stroke that a rope could have drawn
-  kBadWeights,  ///< the weights file is missing, damaged, or of another model
-  kNoDevice,    ///< no device fits what was asked for
-  kDeviceLost,  ///< the device failed, hung past its timeout, or ran out of memory
-  kIo,          ///< a file could not be read or written
-  kInternal,    ///< a defect of this library; please report it
+  kBadInput,     ///< a frame, file or configuration violates its contract
+  kNoEvidence,   ///< no mask pixel carries a usable depth
+  kNoPath,       ///< the mask holds no stroke that a rope could have drawn
+  kBadWeights,   ///< the weights file is missing, damaged, or of another model
+  kNoDevice,     ///< no device fits what was asked for
+  kDeviceLost,   ///< the device failed, hung past its timeout, or ran out of its own memory
+  kIo,           ///< a file could not be read or written
+  kInternal,     ///< a defect of this library; please report it
+  kOutOfMemory,  ///< the call found no memory; nothing is broken, it may be tried again
 };
 
 /// The code's name without its k, in snake_case: "no_path".
@@ -39,6 +40,8 @@ enum class ErrorCode {
       return "io";
     case ErrorCode::kInternal:
       return "internal";
+    case ErrorCode::kOutOfMemory:
+      return "out_of_memory";
   }
   return "internal";
 }

@@ -3,8 +3,9 @@
 #include <exception>
 #include <mutex>
 #include <optional>
-#include <thread>
 #include <utility>
+
+#include "threads/team.hpp"
 
 namespace flowdlo::eval {
 namespace {
@@ -33,21 +34,16 @@ Result<void> run_jobs(std::span<const std::size_t> rows, const std::vector<Worke
     if (failure || next == rows.size()) return std::nullopt;
     return rows[next++];
   };
-  const auto work = [&](const Worker& worker) {
+  if (workers.empty()) return {};
+  threads::work_together(static_cast<int>(workers.size()), [&](int who) {
     while (const auto row = take()) {
-      Trial trial = guarded(worker, *row);
+      Trial trial = guarded(workers[static_cast<std::size_t>(who)], *row);
       const std::lock_guard lock(mutex);
       if (auto handed = done({*row, std::move(trial)}); !handed && !failure) {
         failure = handed.error();
       }
     }
-  };
-  std::vector<std::jthread> threads;
-  for (std::size_t i = 1; i < workers.size(); ++i) {
-    threads.emplace_back(work, std::cref(workers[i]));
-  }
-  if (!workers.empty()) work(workers.front());
-  threads.clear();  // joins
+  });
   if (failure) return *failure;
   return {};
 }

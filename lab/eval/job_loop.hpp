@@ -15,8 +15,9 @@ namespace flowdlo::eval {
 using Worker = std::function<Trial(std::size_t row)>;
 
 /// Calls `done` for every row of `rows`, from one thread at a time, in the order in which they are
-/// finished. A worker that throws costs its row: the trial's failure says what was thrown. Fails
-/// with the first error of `done`, once the rows that were under way are over.
+/// finished. Workers for which no thread can be had stay idle. A worker that throws costs its row:
+/// the trial's failure says what was thrown. Fails with the first error of `done`, once the rows
+/// that were under way are over.
 Result<void> run_jobs(std::span<const std::size_t> rows, const std::vector<Worker>& workers,
                       const std::function<Result<void>(Row)>& done);
 

@@ -10,7 +10,6 @@
 #include <mutex>
 #include <optional>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "estimator/device_choice.hpp"
@@ -21,6 +20,7 @@
 #include "gate_fit/sample.hpp"
 #include "gate_fit/sample_file.hpp"
 #include "progress_bar.hpp"
+#include "threads/team.hpp"
 #include "weights/weights.hpp"
 
 namespace {
@@ -118,19 +118,13 @@ Result<Samples> measured(const Options& options, const Batch& batch, int done) {
   std::vector<Measured> all(static_cast<std::size_t>(batch.scenes - done), Measured(std::nullopt));
   std::atomic<int> next = done;
   std::mutex drawing;
-  const auto work = [&] {
+  flowdlo::threads::work_together(model->sampler ? 1 : flowdlo::threads::cores(), [&](int) {
     for (int i = next++; i < batch.scenes; i = next++) {
       all[static_cast<std::size_t>(i - done)] = measured_one(options, batch, *model, i);
       const std::scoped_lock lock(drawing);
       bar.advance();
     }
-  };
-  {
-    std::vector<std::jthread> others;
-    const unsigned cores = std::max(1U, std::thread::hardware_concurrency());
-    while (!model->sampler && others.size() + 1 < cores) others.emplace_back(work);
-    work();
-  }
+  });
   Samples samples;
   for (Measured& one : all) {
     if (!one) return one.error();

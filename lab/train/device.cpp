@@ -4,8 +4,8 @@
 
 #include <algorithm>
 #include <fstream>
-#include <thread>
 
+#include "threads/count.hpp"
 #include "train/blas.hpp"
 
 namespace flowdlo::train {
@@ -43,8 +43,7 @@ std::string describe(torch::Device device) {
 }
 
 void use_threads(int threads) {
-  const int count =
-      threads > 0 ? threads : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  const int count = threads::count(threads);
   at::set_num_threads(count);
   set_blas_threads(count);
 }

@@ -1,6 +1,9 @@
 #include "train/loader.hpp"
 
+#include <stdexcept>
 #include <utility>
+
+#include "threads/team.hpp"
 
 namespace flowdlo::train {
 
@@ -13,7 +16,8 @@ Loader::Loader(std::shared_ptr<const RecordSet> records, const Recipe& recipe,
       ahead_(static_cast<std::size_t>(threads) + 1),
       to_make_(first_step),
       to_give_(first_step) {
-  for (int i = 0; i < threads; ++i) threads_.emplace_back([this] { work(); });
+  threads_ = threads::start(0, threads::count(threads), [this](int) { work(); });
+  if (threads_.empty()) throw std::runtime_error("loader: expected a thread, got none");
 }
 
 Loader::~Loader() {

@@ -7,9 +7,9 @@
 #include <exception>
 #include <mutex>
 #include <optional>
-#include <thread>
 #include <utility>
 
+#include "threads/team.hpp"
 #include "weights/sha256.hpp"
 
 namespace flowdlo::train {
@@ -56,17 +56,13 @@ std::vector<Outcome> outcomes(const SceneSource& source, const RecordOptions& op
   std::vector<Outcome> made(count);
   std::atomic<std::uint32_t> next = 0;
   std::mutex told;
-  const auto work = [&] {
+  threads::work_together(std::max(threads, 1), [&](int) {
     for (std::uint32_t i = next++; i < count; i = next++) {
       made[i] = outcome_of(source, options, part, first + i);
       const std::lock_guard lock(told);
       if (progress) progress();
     }
-  };
-  std::vector<std::thread> workers;
-  for (int i = 1; i < threads; ++i) workers.emplace_back(work);
-  work();
-  for (std::thread& worker : workers) worker.join();
+  });
   return made;
 }
 

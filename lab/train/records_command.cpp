@@ -1,12 +1,11 @@
 // flowdlo-train records: fills a folder with training and validation records.
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <filesystem>
 #include <memory>
-#include <thread>
 
 #include "progress_bar.hpp"
+#include "threads/count.hpp"
 #include "train/commands.hpp"
 #include "train/recipe.hpp"
 #include "train/record_folder.hpp"
@@ -25,9 +24,7 @@ struct Arguments {
 
 Result<void> make_part(const Arguments& arguments, const Recipe& recipe, Part part,
                        std::uint64_t scenes) {
-  const int threads = arguments.threads > 0
-                          ? arguments.threads
-                          : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  const int threads = threads::count(arguments.threads);
   tools::ProgressBar bar(fmt::format("{} records", name_of(part)), static_cast<int>(scenes),
                          arguments.quiet);
   auto made = make_records(arguments.folder, part, scenes, recipe.data.source,

@@ -51,6 +51,14 @@ TEST(Create, RefusesADeviceThatIsNotThere) {
   EXPECT_EQ(created.error().code, ErrorCode::kNoDevice);
 }
 
+TEST(Create, RefusesADeviceWithoutAName) {
+  Config config = cpu();
+  config.device = "";
+  const auto created = Estimator::create(config);
+  ASSERT_FALSE(created);
+  EXPECT_EQ(created.error().code, ErrorCode::kBadInput);
+}
+
 TEST(Create, AutoAlwaysFindsADevice) {
   Config config = cpu();
   config.device = "auto";
@@ -234,6 +242,25 @@ TEST(Estimate, AFailedFrameDoesNotSpoilTheNext) {
   const auto after = estimator.estimate(wave.frame());
   ASSERT_TRUE(before && after);
   EXPECT_EQ(before->nodes, after->nodes);
+}
+
+TEST(MovedFrom, AnswersEveryCallWithoutHarm) {
+  const WaveFrame wave;
+  auto from = make(cpu());
+  auto to = std::move(from);
+  Tensors tensors;
+  for (const auto& estimate :
+       {from.estimate(wave.frame()), from.estimate(wave.frame(), tensors)}) {  // NOLINT: the point
+    ASSERT_FALSE(estimate);
+    EXPECT_EQ(estimate.error().code, ErrorCode::kBadInput);
+    EXPECT_THAT(estimate.error().message, HasSubstr("moved from"));
+  }
+  EXPECT_EQ(from.device(), "");
+  EXPECT_EQ(from.euler_steps(), 0);
+  EXPECT_EQ(from.draws(), 0);
+  EXPECT_TRUE(to.estimate(wave.frame()));
+  from = std::move(to);
+  EXPECT_TRUE(from.estimate(wave.frame()));
 }
 
 }  // namespace
