@@ -1,0 +1,70 @@
+#include "hostile/cost.hpp"
+
+#include <fmt/format.h>
+#include <malloc.h>
+
+#include <algorithm>
+#include <ctime>
+#include <fstream>
+#include <limits>
+
+namespace flowdlo::lab {
+namespace {
+
+constexpr double kMegabyte = 1.0e6;
+
+double cpu_now_s() {
+  timespec now{};
+  ::clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+/// CPU seconds of one call.
+double run(const Frame& frame, Estimator& estimator) {
+  const double before = cpu_now_s();
+  const auto estimate = estimator.estimate(frame);
+  return cpu_now_s() - before;
+}
+
+/// From here on the kernel keeps the peak anew.
+void forget_peak() {
+  ::malloc_trim(0);
+  std::ofstream("/proc/self/clear_refs") << "5";
+}
+
+double peak_mb() {
+  std::ifstream status("/proc/self/status");
+  for (std::string line; std::getline(status, line);) {
+    if (line.starts_with("VmHWM:")) return std::stod(line.substr(6)) * 1024 / kMegabyte;
+  }
+  return 0;
+}
+
+double megabytes_of(const Frame& frame) {
+  const std::size_t bytes =
+      frame.depth_m.size_bytes() + frame.mask.size_bytes() + frame.color_bgr.size_bytes();
+  return static_cast<double>(bytes) / kMegabyte;
+}
+
+std::string verdict_on(const Frame& frame, Estimator& estimator) {
+  const auto estimate = estimator.estimate(frame);
+  if (estimate) return fmt::format("confidence {:.2f}", estimate->confidence);
+  return fmt::format("{}: {}", name_of(estimate.error().code), estimate.error().message);
+}
+
+}  // namespace
+
+Cost cost_of(const Frame& frame, const Frame& ordinary, Estimator& estimator, int rounds) {
+  Cost cost{std::numeric_limits<double>::max(), std::numeric_limits<double>::max(), 0, {}};
+  run(ordinary, estimator);
+  forget_peak();
+  cost.verdict = verdict_on(frame, estimator);
+  cost.peak_mb = peak_mb() - megabytes_of(frame) - megabytes_of(ordinary);
+  for (int round = 0; round < rounds; ++round) {
+    cost.ordinary_cpu_s = std::min(cost.ordinary_cpu_s, run(ordinary, estimator));
+    cost.cpu_s = std::min(cost.cpu_s, run(frame, estimator));
+  }
+  return cost;
+}
+
+}  // namespace flowdlo::lab
