@@ -11,6 +11,7 @@
 #include "estimator/confidence.hpp"
 #include "gate/tube_score.hpp"
 #include "geometry/polyline.hpp"
+#include "path/limits.hpp"
 #include "path/readings.hpp"
 
 namespace flowdlo::estimator {
@@ -117,6 +118,7 @@ void count_votes(const std::vector<Reading>& readings, double radius_m,
 
 bool in_doubt(const Conditions& conditions) {
   const auto& first = conditions.hypotheses;
+  if (conditions.paths.strands > path::kMostRereadStrands) return false;
   return confidence(first.front().evidence, lead(first)) < kClear;
 }
 

@@ -19,13 +19,6 @@ double cpu_now_s() {
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-/// CPU seconds of one call.
-double run(const Frame& frame, Estimator& estimator) {
-  const double before = cpu_now_s();
-  const auto estimate = estimator.estimate(frame);
-  return cpu_now_s() - before;
-}
-
 /// From here on the kernel keeps the peak anew.
 void forget_peak() {
   ::malloc_trim(0);
@@ -40,30 +33,23 @@ double peak_mb() {
   return 0;
 }
 
-double megabytes_of(const Frame& frame) {
-  const std::size_t bytes =
-      frame.depth_m.size_bytes() + frame.mask.size_bytes() + frame.color_bgr.size_bytes();
-  return static_cast<double>(bytes) / kMegabyte;
-}
-
-std::string verdict_on(const Frame& frame, Estimator& estimator) {
-  const auto estimate = estimator.estimate(frame);
+std::string verdict_on(const Result<Estimate>& estimate) {
   if (estimate) return fmt::format("confidence {:.2f}", estimate->confidence);
   return fmt::format("{}: {}", name_of(estimate.error().code), estimate.error().message);
 }
 
 }  // namespace
 
-Cost cost_of(const Frame& frame, const Frame& ordinary, Estimator& estimator, int rounds) {
-  Cost cost{std::numeric_limits<double>::max(), std::numeric_limits<double>::max(), 0, {}};
-  run(ordinary, estimator);
+Cost cost_of(const Frame& frame, Estimator& estimator, int rounds) {
+  Cost cost{std::numeric_limits<double>::max(), 0, {}};
   forget_peak();
-  cost.verdict = verdict_on(frame, estimator);
-  cost.peak_mb = peak_mb() - megabytes_of(frame) - megabytes_of(ordinary);
   for (int round = 0; round < rounds; ++round) {
-    cost.ordinary_cpu_s = std::min(cost.ordinary_cpu_s, run(ordinary, estimator));
-    cost.cpu_s = std::min(cost.cpu_s, run(frame, estimator));
+    const double before = cpu_now_s();
+    const auto estimate = estimator.estimate(frame);
+    cost.cpu_s = std::min(cost.cpu_s, cpu_now_s() - before);
+    cost.verdict = verdict_on(estimate);
   }
+  cost.peak_mb = peak_mb();
   return cost;
 }
 

@@ -1,4 +1,4 @@
-// Cost: what a frame takes of the processor and of memory, beside an ordinary frame of its size.
+// Cost: what one frame takes of the processor and of memory.
 #pragma once
 
 #include <string>
@@ -9,18 +9,12 @@
 namespace flowdlo::lab {
 
 struct Cost {
-  double cpu_s = 0;           ///< of one call, the least of several
-  double ordinary_cpu_s = 0;  ///< of the ordinary frame between those calls
-  double peak_mb = 0;         ///< of the process during a call, the caller's frame left out
-  std::string verdict;        ///< confidence, or the error's code and sentence
-
-  /// How many times what an ordinary frame takes.
-  [[nodiscard]] double ratio() const { return ordinary_cpu_s > 0 ? cpu_s / ordinary_cpu_s : 0; }
+  double cpu_s = 0;     ///< of one call, the least of several
+  double peak_mb = 0;   ///< of the process during a call
+  std::string verdict;  ///< the estimate's confidence, or the error's code and sentence
 };
 
-/// Estimates both frames by turns, `rounds` times each after one call each that is not counted.
-/// Linux only: the peak is the kernel's.
-[[nodiscard]] Cost cost_of(const Frame& frame, const Frame& ordinary, Estimator& estimator,
-                           int rounds);
+/// Estimates `frame` that often. Linux only: the peak is the kernel's.
+[[nodiscard]] Cost cost_of(const Frame& frame, Estimator& estimator, int rounds);
 
 }  // namespace flowdlo::lab

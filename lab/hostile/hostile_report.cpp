@@ -24,11 +24,14 @@ namespace {
 
 namespace fs = std::filesystem;
 using flowdlo::lab::Cost;
+using flowdlo::lab::cost_of;
+using flowdlo::lab::draw;
+using flowdlo::lab::frame_around;
 using flowdlo::lab::HostileMask;
 
 struct Options {
   std::string only;
-  std::string one;
+  bool here = false;
   fs::path weights;
   fs::path command;
   fs::path scratch = fs::temp_directory_path() / "flowdlo_hostile";
@@ -83,19 +86,27 @@ flowdlo::FrameFolder frame_of(const HostileMask& mask) {
   return frame_around(draw(mask), mask.name());
 }
 
-/// `--one`: measures one mask in this process and prints its cells of the table.
-int measure(const Options& options, const HostileMask& mask) {
+/// `--here`: measures masks in this process, and an ordinary frame of their size before each size.
+int measure(const Options& options, const std::vector<HostileMask>& masks) {
   auto estimator =
       flowdlo::Estimator::create({.weights = options.weights, .device = "cpu", .threads = 1});
   if (!estimator) {
-    std::fprintf(stderr, "%s\n", estimator.error().message.c_str());
+    fmt::print(stderr, "{}\n", estimator.error().message);
     return 1;
   }
-  const auto frame = frame_of(mask);
-  const auto ordinary = frame_around(flowdlo::lab::draw_ordinary(mask.size_px), "ordinary");
-  const Cost cost = cost_of(frame.frame(), ordinary.frame(), *estimator, options.rounds);
-  fmt::print("{:.3f} | {:.3f} | {:.2f} | {:.0f} | {}", cost.cpu_s, cost.ordinary_cpu_s,
-             cost.ratio(), cost.peak_mb, cost.verdict);
+  cv::Size size_px;
+  double ordinary_s = 0;
+  for (const HostileMask& mask : masks) {
+    if (mask.size_px != size_px) {
+      size_px = mask.size_px;
+      const auto ordinary = frame_around(flowdlo::lab::draw_ordinary(size_px), "ordinary");
+      ordinary_s = cost_of(ordinary.frame(), *estimator, 1 + options.rounds).cpu_s;
+    }
+    const Cost cost = cost_of(frame_of(mask).frame(), *estimator, options.rounds);
+    fmt::print("| {} | {:.3f} | {:.2f} | {:.0f} | {} |\n", mask.name(), cost.cpu_s,
+               cost.cpu_s / ordinary_s, cost.peak_mb, cost.verdict);
+    std::fflush(stdout);
+  }
   return 0;
 }
 
@@ -117,21 +128,23 @@ std::string command_cells(const Options& options, const HostileMask& mask) {
   return fmt::format(" {:.2f} | {:.0f} |", took.cpu_s, took.peak_mb);
 }
 
-int report(const Options& options, const char* program) {
-  fmt::print(
-      "| mask | library, CPU s | ordinary frame, CPU s | ratio | library, peak MB | verdict |");
-  if (!options.command.empty()) fmt::print(" command, CPU s | command, peak MB |");
-  fmt::print("\n|---|---|---|---|---|---|{}\n", options.command.empty() ? "" : "---|---|");
-  for (const HostileMask& mask : flowdlo::lab::hostile_corpus()) {
-    if (mask.name().find(options.only) == std::string::npos) continue;
-    std::vector<std::string> line{program, "--one", mask.name(), "--rounds",
-                                  std::to_string(options.rounds)};
+/// Each mask in a process of its own, so that no peak is another one's, and one that is stopped
+/// stops nothing else.
+int report(const Options& options, const char* program, const std::vector<HostileMask>& masks) {
+  fmt::print("| mask | library, CPU s | times an ordinary frame | library, peak MB | verdict |{}\n",
+             options.command.empty() ? "" : " command, CPU s | command, peak MB |");
+  fmt::print("|---|---|---|---|---|{}\n", options.command.empty() ? "" : "---|---|");
+  for (const HostileMask& mask : masks) {
+    std::vector<std::string> line{program,     "--here",   "--only",
+                                  mask.name(), "--rounds", std::to_string(options.rounds)};
     if (!options.weights.empty()) line.insert(line.end(), {"--weights", options.weights});
-    const Run took = run(std::move(line), options.limit_s);
-    const std::string cells = took.status == 0 ? took.output
-                                               : fmt::format("> {} | | | {:.0f} | stopped",
-                                                             options.limit_s, took.peak_mb);
-    fmt::print("| {} | {} |{}\n", mask.name(), cells, command_cells(options, mask));
+    Run took = run(std::move(line), options.limit_s);
+    if (took.status != 0) {
+      took.output = fmt::format("| {} | > {} | | {:.0f} | stopped |\n", mask.name(),
+                                options.limit_s, took.peak_mb);
+    }
+    took.output.pop_back();
+    fmt::print("{}{}\n", took.output, command_cells(options, mask));
     std::fflush(stdout);
   }
   return 0;
@@ -143,7 +156,7 @@ int main(int count, char** values) {
   Options options;
   CLI::App app{"What each mask of the hostile corpus takes of processor and memory"};
   app.add_option("--only", options.only, "Masks whose name holds this");
-  app.add_option("--one", options.one, "Measure this mask in this process, print its cells");
+  app.add_flag("--here", options.here, "Measure in this process, without the table's head");
   app.add_option("--weights", options.weights)->check(CLI::ExistingFile);
   app.add_option("--command", options.command, "Measure this flowdlo as well")
       ->check(CLI::ExistingFile);
@@ -155,10 +168,9 @@ int main(int count, char** values) {
       ->check(CLI::Range(1, 100000))
       ->capture_default_str();
   CLI11_PARSE(app, count, values);
-  if (options.one.empty()) return report(options, values[0]);
-  for (const HostileMask& mask : flowdlo::lab::hostile_corpus()) {
-    if (mask.name() == options.one) return measure(options, mask);
-  }
-  std::fprintf(stderr, "no mask of the corpus: %s\n", options.one.c_str());
-  return 2;
+  auto masks = flowdlo::lab::hostile_corpus();
+  std::erase_if(masks, [&](const HostileMask& mask) {
+    return mask.name().find(options.only) == std::string::npos;
+  });
+  return options.here ? measure(options, masks) : report(options, values[0], masks);
 }
