@@ -46,12 +46,37 @@ cv::Mat background(const Frame& frame, const cv::Mat& mask) {
   return picture;
 }
 
+// The mask's border pixels, as wide as the style's lines and with soft sides, [h, w] u8: how much
+// of the outline's colour each pixel takes. An operation on the image: a mask of a million pieces
+// costs no more than one of one.
+cv::Mat outline_of(const cv::Mat& mask, const OverlayStyle& style) {
+  cv::Mat inner;
+  const cv::Mat cross = cv::getStructuringElement(cv::MORPH_CROSS, {3, 3});
+  cv::erode(mask, inner, cross, {-1, -1}, 1, cv::BORDER_CONSTANT, cv::Scalar(0));
+  cv::Mat outline = mask - inner;
+  if (style.outline_px > 1) {
+    cv::dilate(outline, outline,
+               cv::getStructuringElement(cv::MORPH_ELLIPSE, {style.outline_px, style.outline_px}));
+  }
+  return outline;
+}
+
 void draw_mask_outline(cv::Mat& picture, const cv::Mat& mask, const OverlayStyle& style) {
-  std::vector<std::vector<cv::Point>> outlines;
-  cv::findContours(mask, outlines, cv::RETR_CCOMP, cv::CHAIN_APPROX_NONE);
-  cv::Mat layer = picture.clone();
-  cv::drawContours(layer, outlines, -1, kMaskOutlineColor, style.outline_px, cv::LINE_AA);
-  cv::addWeighted(layer, 0.6, picture, 0.4, 0, picture);
+  constexpr float kOpacity = 0.6F;
+  const cv::Mat outline = outline_of(mask, style);
+  for (int v = 0; v < picture.rows; ++v) {
+    const auto* share = outline.ptr<std::uint8_t>(v);
+    auto* pixel = picture.ptr<cv::Vec3b>(v);
+    for (int u = 0; u < picture.cols; ++u) {
+      if (share[u] == 0) continue;
+      const float opacity = kOpacity * static_cast<float>(share[u]) / 255;
+      for (int c = 0; c < 3; ++c) {
+        const auto line = static_cast<float>(kMaskOutlineColor[c]);
+        pixel[u][c] = cv::saturate_cast<std::uint8_t>(static_cast<float>(pixel[u][c]) +
+                                                      opacity * (line - pixel[u][c]));
+      }
+    }
+  }
 }
 
 void stroke(cv::Mat& picture, const std::vector<cv::Point2f>& points, const cv::Scalar& color,

@@ -10,6 +10,7 @@
 #include "gate/tube_score.hpp"
 #include "geometry/polyline.hpp"
 #include "guard/guarded.hpp"
+#include "path/limits.hpp"
 #include "path/readings.hpp"
 #include "threads/team.hpp"
 
@@ -109,6 +110,7 @@ void count_votes(const std::vector<Reading>& readings, double radius_m,
 
 bool in_doubt(const Conditions& conditions) {
   const auto& first = conditions.hypotheses;
+  if (conditions.paths.strands > path::kMostRereadStrands) return false;
   return confidence(first.front().evidence, lead(first)) < kClear;
 }
 

@@ -15,6 +15,10 @@ namespace {
 constexpr float kMinDepth_m = 1e-6F;          // Sec. 3.2
 constexpr std::uint8_t kMaskThreshold = 127;  // 0.5 of an 8-bit mask
 
+/// Points of a cloud at most: a frame of 1920 x 1080 pixels all of which are mask. Beyond it there
+/// are more than enough, and sampling them would take time and memory without bound.
+constexpr std::size_t kMostPoints = std::size_t{1} << 21;
+
 /// True when none of the eight values from `mask` on is above kMaskThreshold, the top bit's weight.
 bool eight_unmasked(const std::uint8_t* mask) {
   std::uint64_t word = 0;
@@ -26,12 +30,23 @@ bool is_finite(const Point3& point) {
   return std::isfinite(point.x) && std::isfinite(point.y) && std::isfinite(point.z);
 }
 
-void append_row(const Frame& frame, int v, Cloud& cloud) {
+/// How many pixels the mask has for each that becomes a point; 1: all of them do.
+std::size_t pixels_a_point(const Frame& frame) {
+  if (frame.mask.size() <= kMostPoints) return 1;
+  const auto masked = static_cast<std::size_t>(
+      std::count_if(frame.mask.begin(), frame.mask.end(),
+                    [](std::uint8_t value) { return value > kMaskThreshold; }));
+  return std::max<std::size_t>(1, (masked + kMostPoints - 1) / kMostPoints);
+}
+
+/// `passed` counts the mask's pixels so far.
+void append_row(const Frame& frame, int v, std::size_t each, std::size_t& passed, Cloud& cloud) {
   const int first = v * frame.width;
   const std::uint8_t* const mask = frame.mask.data() + first;
   for (int u = 0; u < frame.width; ++u) {
     while (u + 8 <= frame.width && eight_unmasked(mask + u)) u += 8;
     if (u >= frame.width || mask[u] <= kMaskThreshold) continue;
+    if (each > 1 && passed++ % each != 0) continue;
     const float depth_m = frame.depth_m[static_cast<std::size_t>(first + u)];
     if (!std::isfinite(depth_m) || depth_m <= kMinDepth_m) continue;
     const Point3 point = geometry::unproject(frame.intrinsics, static_cast<float>(u),
@@ -46,7 +61,9 @@ void append_row(const Frame& frame, int v, Cloud& cloud) {
 
 Cloud unproject(const Frame& frame) {
   Cloud cloud;
-  for (int v = 0; v < frame.height; ++v) append_row(frame, v, cloud);
+  const std::size_t each = pixels_a_point(frame);
+  std::size_t passed = 0;
+  for (int v = 0; v < frame.height; ++v) append_row(frame, v, each, passed, cloud);
   return cloud;
 }
 

@@ -12,7 +12,9 @@ namespace flowdlo::evidence {
 
 inline constexpr int kVisiblePoints = 256;  ///< K_obs, Sec. 3.2
 
-/// The raw set: every mask pixel with a usable depth, in row-major pixel order.
+/// The raw set: every mask pixel with a usable depth, in row-major pixel order. Of a mask of more
+/// than 2^21 pixels every second one, or every third, and so on: no cloud has more points than
+/// that.
 struct Cloud {
   std::vector<Point3> points_cam;  ///< [P, 3] metres
   std::vector<int> pixels;         ///< [P] index into the image, v * width + u

@@ -16,30 +16,32 @@ constexpr float kMinDepth_m = 1e-6F;          // Sec. 3.2; nearer nodes have no 
 constexpr double kSamePlace_px = 1e-3;        // a sample this close to the next node is that node
 constexpr double kMaxSegment_px = 1e9;        // longer ones have no sample of known position
 
-struct Run {
-  int first;
-  int last;
-};
-
-/// Maximal stretches of mask pixels of one row, left to right.
-void find_runs(const std::uint8_t* row, int width, std::vector<Run>& runs) {
-  runs.clear();
-  for (int u = 0; u < width; ++u) {
-    if (row[u] <= kMaskThreshold) continue;
-    const int first = u;
-    while (u + 1 < width && row[u + 1] > kMaskThreshold) ++u;
-    runs.push_back({first, u});
+/// Along one row, how far each pixel is from the nearest one of the mask, at most `most`; false
+/// where the row has none.
+bool measure_row(const std::uint8_t* row, std::uint16_t most, std::vector<std::uint16_t>& away) {
+  const std::size_t width = away.size();
+  bool any = false;
+  std::uint16_t distance = most;
+  for (std::size_t u = 0; u < width; ++u) {
+    const bool masked = row[u] > kMaskThreshold;
+    any = any || masked;
+    distance = masked ? std::uint16_t{0} : static_cast<std::uint16_t>(distance + (distance < most));
+    away[u] = distance;
   }
+  if (!any) return false;
+  distance = most;
+  for (std::size_t u = width; u-- > 0;) {
+    distance = std::min(away[u], static_cast<std::uint16_t>(distance + (distance < most)));
+    away[u] = distance;
+  }
+  return true;
 }
 
-/// Sets the runs of one row, each wider by `reach` on both sides. Runs that then overlap are set
-/// as one, so that the work is bounded by the row.
-void cover(const std::vector<Run>& runs, int reach, int width, std::uint8_t* row) {
-  for (std::size_t i = 0; i < runs.size();) {
-    const int first = std::max(0, runs[i].first - reach);
-    int last = runs[i].last + reach;
-    for (++i; i < runs.size() && runs[i].first - reach <= last; ++i) last = runs[i].last + reach;
-    std::fill(row + first, row + std::min(width - 1, last) + 1, std::uint8_t{1});
+/// Sets the pixels of a row that are at most `reach` away. Without branches: the work is the same
+/// for every mask.
+void cover(const std::vector<std::uint16_t>& away, std::uint16_t reach, std::uint8_t* row) {
+  for (std::size_t u = 0; u < away.size(); ++u) {
+    row[u] = static_cast<std::uint8_t>(row[u] | (away[u] <= reach ? 1 : 0));
   }
 }
 
@@ -114,14 +116,15 @@ DilatedMask::DilatedMask(const Frame& frame, const Limits& limits)
   const float radius_px = limits.mask_dilation_px * geometry::pixel_scale(width_);
   const int reach = static_cast<int>(radius_px);
   const auto stride = static_cast<std::size_t>(width_);
-  std::vector<Run> runs;
+  std::vector<std::uint16_t> away(stride);
   for (int v = 0; v < height_; ++v) {
-    find_runs(frame.mask.data() + static_cast<std::size_t>(v) * stride, width_, runs);
-    if (runs.empty()) continue;
+    const std::uint8_t* const masked = frame.mask.data() + static_cast<std::size_t>(v) * stride;
+    if (!measure_row(masked, static_cast<std::uint16_t>(reach + 1), away)) continue;
     for (int row = std::max(0, v - reach); row <= std::min(height_ - 1, v + reach); ++row) {
       const auto dv = static_cast<float>(row - v);
-      const int half_width = static_cast<int>(std::sqrt(radius_px * radius_px - dv * dv));
-      cover(runs, half_width, width_, &covered_[static_cast<std::size_t>(row) * stride]);
+      const auto half_width =
+          static_cast<std::uint16_t>(std::sqrt(radius_px * radius_px - dv * dv));
+      cover(away, half_width, &covered_[static_cast<std::size_t>(row) * stride]);
     }
   }
 }

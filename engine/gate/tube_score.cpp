@@ -15,7 +15,9 @@ namespace {
 constexpr std::uint8_t kMaskThreshold = 127;  // 0.5 of an 8-bit mask
 constexpr float kMinDepth_m = 1e-6F;          // Sec. 3.2
 constexpr float kMostDepth_m = 1e4F;
-constexpr float kCellsAcross = 5;   // a rope's width
+constexpr float kCellsAcross = 5;  // a rope's width
+constexpr float kMostCells =
+    1U << 21;                       // of a raster: 2 px a cell where ropes are thin in large frames
 constexpr float kMargin = 2;        // of the region around the mask, in widths
 constexpr float kMostWider = 3;     // a drawn radius, against half the mask's width
 constexpr float kRim_px = 1.25F;    // the mask may reach this far beyond the tube,
@@ -110,6 +112,10 @@ TubeView::TubeView(const Frame& frame, float rope_width_px)
       rope_width_px_(usual_width_px(rope_width_px)),
       stride_px_(std::max(1, static_cast<int>(rope_width_px_ / kCellsAcross))) {
   find_region(frame);
+  while (static_cast<float>(width_) * static_cast<float>(height_) > kMostCells) {
+    ++stride_px_;
+    find_region(frame);
+  }
   const auto cells = static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_);
   mask_.assign(cells, 0);
   depth_m_.assign(cells, 0);

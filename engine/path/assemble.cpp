@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <opencv2/imgproc.hpp>
+#include <set>
 #include <utility>
 
 #include "path/cover.hpp"
@@ -55,8 +57,13 @@ bool inside(const Points& points, const cv::Mat& mask) {
 
 // Bridges from node to node inside a crossing, shortest way; empty when they do not connect.
 std::vector<int> bridges_between(const Strands& strands, int from, int to) {
+  std::multimap<int, int> leaving;  // node to the ends of bridges there, 2 * bridge + side
+  for (int end = 0; end < 2 * static_cast<int>(strands.bridges.size()); ++end) {
+    leaving.emplace(strands.bridges[end / 2].node[end % 2], end);
+  }
   std::vector<std::pair<int, int>> came;  // (node, bridge end that led there)
   std::vector<int> parent;
+  std::set<int> seen{from};
   came.emplace_back(from, -1);
   parent.push_back(-1);
   for (std::size_t i = 0; i < came.size(); ++i) {
@@ -68,16 +75,12 @@ std::vector<int> bridges_between(const Strands& strands, int from, int to) {
       std::reverse(way.begin(), way.end());
       return way;
     }
-    for (int b = 0; b < static_cast<int>(strands.bridges.size()); ++b) {
-      for (int side = 0; side < 2; ++side) {
-        if (strands.bridges[b].node[side] != came[i].first) continue;
-        const int next = strands.bridges[b].node[1 - side];
-        const bool seen = std::any_of(came.begin(), came.end(),
-                                      [&](const auto& entry) { return entry.first == next; });
-        if (seen) continue;
-        came.emplace_back(next, 2 * b + side);
-        parent.push_back(static_cast<int>(i));
-      }
+    const auto [first, last] = leaving.equal_range(came[i].first);
+    for (auto end = first; end != last; ++end) {
+      const int next = strands.bridges[end->second / 2].node[1 - end->second % 2];
+      if (!seen.insert(next).second) continue;
+      came.emplace_back(next, end->second);
+      parent.push_back(static_cast<int>(i));
     }
   }
   return {};

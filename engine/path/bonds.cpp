@@ -2,10 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
+#include <span>
 
 #include "path/cover.hpp"
 #include "path/gap_curve.hpp"
+#include "path/limits.hpp"
 
 namespace flowdlo::path {
 namespace {
@@ -14,7 +17,7 @@ using Eigen::Vector2f;
 
 constexpr std::size_t kBondsAnEnd = 8;
 constexpr std::size_t kMostTips = 96;
-constexpr std::size_t kMostAtCrossing = 64;
+constexpr std::size_t kMostPartners = 64;  // of an end at a crossing
 constexpr float kMostBending = 20.0F;
 constexpr float kChangeSides = 4.0F;
 constexpr float kKeepSides = 1.0F;
@@ -38,6 +41,7 @@ constexpr float kMostDepthCost = 5.0F;
 constexpr float kDepthNoise_m = 0.002F;
 constexpr float kDepthNoise = 0.18F;    // metres of depth a metre through a crossing
 constexpr float kGapDepthNoise = 0.3F;  // and across a gap
+constexpr float kRounding = 1e-3F;      // of a cost
 
 float angle(const Vector2f& from, const Vector2f& to) {
   return std::atan2(from.x() * to.y() - from.y() * to.x(), from.dot(to));
@@ -105,7 +109,8 @@ class Builder {
       : strands_(strands),
         frame_(frame),
         cover_(region, frame, strands.width_px),
-        bonds_(2 * strands.list.size()) {
+        bonds_(2 * strands.list.size()),
+        kept_(bonds_.size()) {
     for (const Bridge& bridge : strands.bridges) {
       bridges_.try_emplace({bridge.node[0], bridge.node[1]}, &bridge);
       bridges_.try_emplace({bridge.node[1], bridge.node[0]}, &bridge);
@@ -131,14 +136,30 @@ class Builder {
 
  private:
   void add(int a, int b, float cost, bool gap) {
-    bonds_[a].push_back({b, cost, gap});
-    bonds_[b].push_back({a, cost, gap});
+    for (const auto& [end, other] : {std::pair{a, b}, {b, a}}) {
+      bonds_[end].push_back({other, cost, gap});
+      std::vector<float>& kept = kept_[end];
+      kept.insert(std::upper_bound(kept.begin(), kept.end(), cost), cost);
+      if (kept.size() > kBondsAnEnd) kept.pop_back();
+    }
+  }
+
+  // What a bond of that end may cost to be kept, as things stand.
+  [[nodiscard]] float most_at(int end) const {
+    const std::vector<float>& kept = kept_[end];
+    return kept.size() < kBondsAnEnd ? std::numeric_limits<float>::max() : kept.back();
+  }
+
+  // The ends that meet at a crossing; of more than a rope can have there, the first.
+  [[nodiscard]] std::span<const int> some_at(int crossing) {
+    const std::vector<int>& ends = met_[crossing];
+    return {ends.data(), std::min<std::size_t>(ends.size(), kMostAtCrossing)};
   }
 
   void through_crossings() {
     for (const auto& [crossing, ends] : met_) {
       for (std::size_t i = 0; i < ends.size(); ++i) {
-        const std::size_t last = std::min(ends.size(), i + 1 + kMostAtCrossing);
+        const std::size_t last = std::min(ends.size(), i + 1 + kMostPartners);
         for (std::size_t j = i + 1; j < last; ++j) {
           const StrandEnd& a = strands_.end(ends[i]);
           const StrandEnd& b = strands_.end(ends[j]);
@@ -163,8 +184,8 @@ class Builder {
       const float most = kSharedWidths * strands_.scale_px;
       const bool brief =
           (front.node_px - back.node_px).norm() <= most && strands_.list[s].covers_px <= most;
-      for (const int from : met_[front.crossing]) {
-        for (const int to : met_[back.crossing]) {
+      for (const int from : some_at(front.crossing)) {
+        for (const int to : some_at(back.crossing)) {
           if (brief || strands_.list[s].doubled || behind(s, from, to)) pass_along(s, from, to);
         }
       }
@@ -205,7 +226,7 @@ class Builder {
     for (int tip = 0; tip < static_cast<int>(bonds_.size()); ++tip) {
       if (!strands_.list[tip / 2].folding || !strands_.end(tip).tip()) continue;
       const StrandEnd& root = strands_.end(tip ^ 1);
-      for (const int to : met_[root.crossing]) {
+      for (const int to : some_at(root.crossing)) {
         if (!strands_.folds(tip, to)) continue;
         const float trust = std::min(trust_in(tip), trust_in(to));
         const float hidden = strands_.list[tip / 2].covers_px / (kFoldWidths * strands_.scale_px);
@@ -230,18 +251,23 @@ class Builder {
     }
     keep_longest(tips, kMostTips);
     keep_longest(crossed, kMostTips);
+    std::vector<Gap> gaps;
     for (std::size_t i = 0; i < tips.size(); ++i) {
-      for (std::size_t j = i + 1; j < tips.size(); ++j) link(tips[i], tips[j], 0);
-      for (const int end : crossed) link(tips[i], end, extra_at(end));
+      for (std::size_t j = i + 1; j < tips.size(); ++j) consider(tips[i], tips[j], 0, gaps);
+      for (const int end : crossed) consider(tips[i], end, extra_at(end), gaps);
     }
     for (std::size_t i = 0; i < crossed.size(); ++i) {
       for (std::size_t j = i + 1; j < crossed.size(); ++j) {
         const StrandEnd& a = strands_.end(crossed[i]);
         const StrandEnd& b = strands_.end(crossed[j]);
         if (!a.cut || !b.cut || a.crossing == b.crossing) continue;
-        link(crossed[i], crossed[j], extra_at(crossed[i]) + extra_at(crossed[j]));
+        consider(crossed[i], crossed[j], extra_at(crossed[i]) + extra_at(crossed[j]), gaps);
       }
     }
+    // The short ones first: most others then cost more than what is kept.
+    std::stable_sort(gaps.begin(), gaps.end(),
+                     [](const Gap& a, const Gap& b) { return a.straight < b.straight; });
+    for (const Gap& gap : gaps) link(gap);
   }
 
   [[nodiscard]] float extra_at(int end) const {
@@ -256,11 +282,32 @@ class Builder {
     ends.resize(most);
   }
 
-  void link(int a, int b, float extra) {
+  // A link over a gap that may be worth its cost.
+  struct Gap {
+    int from = 0;
+    int to = 0;
+    float extra = 0;     // what it costs beside what lies between the ends
+    float straight = 0;  // what it costs at least
+    float most = 0;      // and at most
+  };
+
+  void consider(int a, int b, float extra, std::vector<Gap>& gaps) const {
     if (a / 2 == b / 2 || strands_.folds(a, b) || strands_.folds(b, a)) return;
+    const float apart = (strands_.end(a).point_px - strands_.end(b).point_px).norm();
+    const float straight = kGapStart + apart / (kGapWidths * strands_.scale_px);
     const float most = most_for(a, b);
-    const float cost = extra + cost_across(strands_.end(a), strands_.end(b), most);
-    if (cost < most) add(a, b, cost, true);
+    if (straight < most) gaps.push_back({a, b, extra, straight, most});
+  }
+
+  void link(const Gap& gap) {
+    const StrandEnd& a = strands_.end(gap.from);
+    const StrandEnd& b = strands_.end(gap.to);
+    const float depth = depth_misfit(a, b, strands_.width_px, frame_.intrinsics.fx, true);
+    const float kept = std::max(most_at(gap.from), most_at(gap.to));
+    const float curve_most = std::min(gap.most, kept) - gap.extra - kGapStart - depth + kRounding;
+    const float curve = gap_cost(a, b, cover_, strands_.scale_px, curve_most);
+    const float cost = gap.extra + (kGapStart + curve + depth);
+    if (curve < curve_most && cost < gap.most) add(gap.from, gap.to, cost, true);
   }
 
   // No gap costs more than leaving out what lies beyond it.
@@ -270,18 +317,11 @@ class Builder {
     return std::max(kMostGapCost, kLeftOutCost * covers_px / strands_.scale_px);
   }
 
-  [[nodiscard]] float cost_across(const StrandEnd& a, const StrandEnd& b, float most) const {
-    const float scale = strands_.scale_px;
-    const float straight = kGapStart + (a.point_px - b.point_px).norm() / (kGapWidths * scale);
-    if (straight >= most) return straight;
-    return kGapStart + gap_cost(a, b, cover_, scale) +
-           depth_misfit(a, b, strands_.width_px, frame_.intrinsics.fx, true);
-  }
-
   const Strands& strands_;
   const Frame& frame_;
   Cover cover_;
   std::vector<std::vector<Bond>> bonds_;
+  std::vector<std::vector<float>> kept_;                  // [ends] costs that are kept, ascending
   std::map<std::pair<int, int>, const Bridge*> bridges_;  // between two nodes
   std::map<int, std::vector<int>> met_;                   // crossing to the ends there
 };

@@ -46,6 +46,11 @@ Vector2f ahead(const Points& points, const Vector2f& p, float width_px) {
 
 }  // namespace
 
+int CutEnds::looks_px() const {
+  const float widths = kStepWidths + kStepKept + kBlurWidths + kFitWidths.back();
+  return static_cast<int>(std::ceil(widths * kNearerMost * size_px_)) + 8;
+}
+
 bool CutEnds::single(const Station& station) const {
   const float widths = station.size_px / size_px_;
   const float most = clear ? std::max(kSingleMost, 1 + kPixelNoise / size_px_) : kSingleMost;

@@ -26,6 +26,9 @@ class CutEnds {
   /// Where the line goes on as one strand, soon and for long enough; null where it does not.
   [[nodiscard]] const Station* step(const Line& after, float width_px) const;
 
+  /// How many stations beyond a stretch `find` and `step` look at, at most.
+  [[nodiscard]] int looks_px() const;
+
   bool turns = true;   ///< whether a strand may turn back at a round tip
   bool clear = false;  ///< whether the stretch is too wide for one strand whatever its noise
 

@@ -131,11 +131,14 @@ class Cutter {
     }
     return i < count && wide(line[i]);
   }
-  // What comes before a stretch, seen from it, and what follows.
-  static std::pair<Line, Line> around(const Line& line, int first, int last) {
-    Line before(line.begin(), line.begin() + first);
+  // What comes before a stretch, seen from it, and what follows, as far as ends look.
+  [[nodiscard]] std::pair<Line, Line> around(const Line& line, int first, int last) const {
+    const int most = ends_.looks_px();
+    const int count = static_cast<int>(line.size());
+    Line before(line.begin() + std::max(0, first - most), line.begin() + first);
     std::reverse(before.begin(), before.end());
-    return {std::move(before), Line(line.begin() + last + 1, line.end())};
+    return {std::move(before),
+            Line(line.begin() + last + 1, line.begin() + std::min(count, last + 1 + most))};
   }
 
   // Whether one of the two strands stops at an end of a stretch: a crossing does not look so.

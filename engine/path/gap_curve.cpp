@@ -45,21 +45,30 @@ class Gap {
   Gap(const StrandEnd& from, const StrandEnd& to, const Cover& cover, float scale_px)
       : from_(from), to_(to), cover_(cover), scale_px_(scale_px) {}
 
-  // The cheapest cubic over a grid of both tangents' lengths.
-  float search(Purpose purpose) {
+  // The cheapest cubic over a grid of both tangents' lengths, those first that bend least; depths
+  // are looked up only where the rest leaves room below `most`.
+  float search(Purpose purpose, float most = std::numeric_limits<float>::max()) {
     purpose_ = purpose;
+    std::array<Attempt, kTangents.size() * kTangents.size()> attempts;
+    std::size_t count = 0;
     for (const float out : kTangents) {
-      for (const float in : kTangents) attempt(out, in);
+      for (const float in : kTangents) attempts[count++] = drawn(out, in);
+    }
+    std::stable_sort(attempts.begin(), attempts.end(),
+                     [](const Attempt& a, const Attempt& b) { return a.cost < b.cost; });
+    for (const Attempt& attempt : attempts) {
+      if (attempt.cost >= std::min(most, least_)) break;
+      accept(attempt);
     }
     return least_;
   }
 
   void refine() {
     for (int round = 0; round < kFineRounds; ++round) {
-      bool better = attempt(leaves_ * kFineFactor, enters_);
-      better = attempt(leaves_ / kFineFactor, enters_) || better;
-      better = attempt(leaves_, enters_ * kFineFactor) || better;
-      better = attempt(leaves_, enters_ / kFineFactor) || better;
+      bool better = accept(drawn(leaves_ * kFineFactor, enters_));
+      better = accept(drawn(leaves_ / kFineFactor, enters_)) || better;
+      better = accept(drawn(leaves_, enters_ * kFineFactor)) || better;
+      better = accept(drawn(leaves_, enters_ / kFineFactor)) || better;
       if (!better) return;
     }
   }
@@ -74,12 +83,22 @@ class Gap {
             -enters * chord.norm() * to_.heading};
   }
 
-  bool attempt(float leaves, float enters) {
-    const Cubic cubic = cubic_of(leaves, enters);
+  /// A cubic, and what its length and its bends cost.
+  struct Attempt {
+    float leaves = 1;
+    float enters = 1;
+    Cubic cubic{};
+    std::array<float, kSamples> steps{};
+    float length = 0;
+    float cost = 0;
+  };
+
+  [[nodiscard]] Attempt drawn(float leaves, float enters) const {
+    Attempt attempt{leaves, enters, cubic_of(leaves, enters)};
+    const Cubic& cubic = attempt.cubic;
     const Vector2f chord = cubic.b - cubic.a;
     float length = 0;
     float energy = 0;
-    std::array<float, kSamples> steps{};
     for (int i = 0; i < kSamples; ++i) {
       const float t = (static_cast<float>(i) + 0.5F) / kSamples;
       const Vector2f d1 = (6 * t - 6 * t * t) * chord + (1 - 4 * t + 3 * t * t) * cubic.da +
@@ -88,19 +107,25 @@ class Gap {
       const float speed = std::max(d1.norm(), 1e-3F);
       float bend = (d1.x() * d2.y() - d1.y() * d2.x()) / (speed * speed * speed);
       if (purpose_ == Purpose::kLink) bend -= (1 - t) * from_.curvature - t * to_.curvature;
-      steps[i] = speed / kSamples;
-      length += steps[i];
-      energy += bend * bend * steps[i];
+      attempt.steps[i] = speed / kSamples;
+      length += attempt.steps[i];
+      energy += bend * bend * attempt.steps[i];
     }
     const float weight = purpose_ == Purpose::kLink ? kLinkBending : kShapeBending;
-    float cost = length / (kWidths * scale_px_) + weight * bending(energy * length, chord.norm());
-    if (cost >= least_) return false;
-    cost += open_cost(cubic, steps);
+    attempt.length = length;
+    attempt.cost = length / (kWidths * scale_px_) + weight * bending(energy * length, chord.norm());
+    return attempt;
+  }
+
+  // Whether the attempt is the best so far, depths and all.
+  bool accept(const Attempt& attempt) {
+    if (attempt.cost >= least_) return false;
+    const float cost = attempt.cost + open_cost(attempt.cubic, attempt.steps);
     if (cost >= least_) return false;
     least_ = cost;
-    leaves_ = leaves;
-    enters_ = enters;
-    length_px_ = length;
+    leaves_ = attempt.leaves;
+    enters_ = attempt.enters;
+    length_px_ = attempt.length;
     return true;
   }
 
@@ -140,8 +165,9 @@ class Gap {
 
 }  // namespace
 
-float gap_cost(const StrandEnd& from, const StrandEnd& to, const Cover& cover, float scale_px) {
-  return Gap(from, to, cover, scale_px).search(Purpose::kLink);
+float gap_cost(const StrandEnd& from, const StrandEnd& to, const Cover& cover, float scale_px,
+               float most) {
+  return Gap(from, to, cover, scale_px).search(Purpose::kLink, most);
 }
 
 std::vector<Vector2f> gap_points(const StrandEnd& from, const StrandEnd& to, const Cover& cover,

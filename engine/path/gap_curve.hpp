@@ -11,9 +11,10 @@
 namespace flowdlo::path {
 
 /// What it takes to run from end to end, dimensionless: length, change of curvature, and most of
-/// all running where the sensor sees the background.
+/// all running where the sensor sees the background. What costs `most` or more need not be known
+/// any better than that.
 [[nodiscard]] float gap_cost(const StrandEnd& from, const StrandEnd& to, const Cover& cover,
-                             float scale_px);
+                             float scale_px, float most);
 
 /// Points about a pixel apart on the curve that bends least for its length and keeps out of sight;
 /// both ends left out.

@@ -1,5 +1,7 @@
 #include "path/path.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <opencv2/core.hpp>
@@ -12,7 +14,9 @@
 #include "path/doubles.hpp"
 #include "path/graph.hpp"
 #include "path/hidden_forks.hpp"
+#include "path/limits.hpp"
 #include "path/magnified.hpp"
+#include "path/reduced.hpp"
 #include "path/region.hpp"
 #include "path/rings.hpp"
 #include "path/search.hpp"
@@ -24,7 +28,6 @@ namespace {
 
 constexpr float kRaggedSpurs = 0.12F;  // spurs a width of skeleton: the border is frayed
 constexpr int kRaggedLeast = 4;
-constexpr int kMostSegments = 2000;
 constexpr int kMostAlternatives = 16;
 constexpr double kMarginCost = 3.0;  // cost between winner and runner-up that settles it
 constexpr double kLengthTolerance = 0.08;
@@ -88,8 +91,8 @@ int alive(const Graph& graph) {
 }
 
 // The graph of the mask; a frayed or noisy one is filtered first. A mask that stays a tangle of
-// thousands of segments is no rope: its graph is empty.
-Graph graph_of(Region& region) {
+// many segments is no rope.
+Result<Graph> graph_of(Region& region) {
   Graph graph = make_graph(thin(region.mask), region);
   if (ragged(graph)) {
     const int size = std::clamp(static_cast<int>(region.width_px / 3) | 1, 3, 15);
@@ -100,8 +103,11 @@ Graph graph_of(Region& region) {
     region = smoothed(region, size);
     graph = make_graph(thin(region.mask), region);
   }
-  if (alive(graph) > kMostSegments) graph.segments.clear();
-  return graph;
+  if (alive(graph) <= kMostSegments) return graph;
+  return Error{ErrorCode::kNoPath,
+               fmt::format("path: expected one rope, at most {} stretches between crossings and "
+                           "ends, got {} of a texture or of many things; check the segmentation",
+                           kMostSegments, alive(graph))};
 }
 
 // The distinct traversals as paths, best first; the long axis where there are none.
@@ -139,6 +145,7 @@ Result<Traversals> trace_graph(Graph& graph, const Region& region, const Frame& 
 
   Traversals result;
   result.rope_width_px = strands.width_px;
+  result.strands = static_cast<int>(strands.list.size());
   result.ranked = ranked_paths(strands, region, frame, config);
   if (result.ranked.empty()) {
     return Error{ErrorCode::kNoPath,
@@ -157,15 +164,16 @@ Result<Traversals> trace_graph(Graph& graph, const Region& region, const Frame& 
 // for a cut a pixel wide.
 Result<Traversals> trace_parted(const Region& region, const Doubles& doubles, const Frame& frame,
                                 const TraceConfig& config) {
-  if (doubles.width_px >= kThinDoublePx) {
+  const bool large = region.mask.total() * kMagnified * kMagnified > kMostMagnifiedPixels;
+  if (doubles.width_px >= kThinDoublePx || large) {
     const Region parted = cut(region, doubles.lines);
     Graph graph = make_graph(thin(parted.mask), parted);
     return trace_graph(graph, parted, frame, config);
   }
   const Magnified magnified(frame, region, kMagnified);
-  const Region large = cut(magnified.region(), magnified.enlarged(doubles.lines));
-  Graph graph = make_graph(thin(large.mask), large);
-  auto result = trace_graph(graph, large, magnified.frame(), config);
+  const Region parted = cut(magnified.region(), magnified.enlarged(doubles.lines));
+  Graph graph = make_graph(thin(parted.mask), parted);
+  auto result = trace_graph(graph, parted, magnified.frame(), config);
   if (result) magnified.shrink(*result);
   return result;
 }
@@ -191,19 +199,33 @@ Traversals merged(Traversals parted, const Traversals& whole, const TraceConfig&
 Result<Traversals> trace_region(const Frame& frame, const TraceConfig& config) {
   auto region = clean(frame);
   if (!region) return region.error();
-  Graph graph = graph_of(*region);
-  const Doubles doubles = find_doubles(graph, *region, frame);
-  auto whole = trace_graph(graph, *region, frame, config);
+  auto graph = graph_of(*region);
+  if (!graph) return graph.error();
+  const Doubles doubles = find_doubles(*graph, *region, frame);
+  auto whole = trace_graph(*graph, *region, frame, config);
   if (doubles.lines.empty() || !whole) return whole;
   auto parted = trace_parted(*region, doubles, frame, config);
   if (!parted) return whole;
   return merged(*std::move(parted), *whole, config);
 }
 
+// The traversals of a mask that is too large to be traced as it is.
+Result<Traversals> trace_reduced(const Frame& frame, const cv::Rect& box, int times,
+                                 const TraceConfig& config) {
+  const Reduced reduced(frame, box, times);
+  auto result = trace_region(reduced.frame(), config);
+  if (result) reduced.enlarge(*result);
+  return result;
+}
+
 }  // namespace
 
 Result<Traversals> trace(const Frame& frame, const TraceConfig& config) {
-  return guard::guarded("path", [&] { return trace_region(frame, config); });
+  return guard::guarded("path", [&] {
+    const cv::Rect box = bounding_box(frame);
+    const int times = reduction_of(box);
+    return times == 1 ? trace_region(frame, config) : trace_reduced(frame, box, times, config);
+  });
 }
 
 }  // namespace flowdlo::path

@@ -6,6 +6,8 @@
 #include <string>
 
 #include "guard/guarded.hpp"
+#include "path/limits.hpp"
+#include "path/reduced.hpp"
 #include "path/region.hpp"
 #include "path/window.hpp"
 
@@ -20,6 +22,7 @@ constexpr float kErodedShare = 1.0F / 16;  // of the rope's width from each side
 constexpr float kDilatedShare = 1.0F / 8;  // and to each side,
 constexpr int kLeastErodedPx = 1;          // but at least this
 constexpr int kLeastDilatedPx = 2;
+constexpr int kMostBrushPx = 16;  // the radius of a disc that is drawn pixel by pixel
 constexpr float kLeastWidthPx = 1.0F;
 constexpr float kLeastDepth_m = 1e-6F;
 
@@ -35,6 +38,18 @@ bool measured(float depth_m) { return std::isfinite(depth_m) && depth_m > kLeast
 
 cv::Mat disc(int radius_px) {
   return cv::getStructuringElement(cv::MORPH_ELLIPSE, {2 * radius_px + 1, 2 * radius_px + 1});
+}
+
+// `mask` without what lies within `radius_px` of an empty pixel. A large disc is a distance:
+// brushes cost as much as they have pixels.
+cv::Mat shrunk(const cv::Mat& mask, int radius_px) {
+  cv::Mat result;
+  if (radius_px <= kMostBrushPx) {
+    cv::erode(mask, result, disc(radius_px));
+    return result;
+  }
+  cv::distanceTransform(mask, result, cv::DIST_L2, 5);
+  return result > static_cast<float>(radius_px);
 }
 
 int share_of(float width_px, float share, int least_px) {
@@ -84,13 +99,13 @@ Reread reread_as(Reading reading, const Frame& frame, const cv::Rect& box, float
       break;
     case Reading::kEroded: {
       const int radius_px = share_of(width_px, kErodedShare, kLeastErodedPx);
-      cv::erode(reread.mask, reread.mask, disc(radius_px));
+      reread.mask = shrunk(reread.mask, radius_px);
       reread.grown_px = -2.0F * static_cast<float>(radius_px);
       break;
     }
     case Reading::kDilated: {
       const int radius_px = share_of(width_px, kDilatedShare, kLeastDilatedPx);
-      cv::dilate(reread.mask, reread.mask, disc(radius_px));
+      reread.mask = 255 - shrunk(255 - reread.mask, radius_px);
       reread.grown_px = 2.0F * static_cast<float>(radius_px);
       break;
     }
@@ -105,6 +120,13 @@ Result<Traversals> trace_reread(Reading reading, const Frame& frame, float rope_
                                 const TraceConfig& config) {
   const cv::Rect box = bounding_box(frame);
   if (reading == Reading::kAsGiven || box.empty()) return trace(frame, config);
+  if (const int times = reduction_of(box); times > 1) {
+    const Reduced reduced(frame, box, times);
+    auto result =
+        trace_reread(reading, reduced.frame(), rope_width_px / static_cast<float>(times), config);
+    if (result) reduced.enlarge(*result);
+    return result;
+  }
   const Reread reread = reread_as(reading, frame, box, rope_width_px);
   auto result =
       trace(frame_of(reread.mask, reread.depth_m, reread.window.camera(frame.intrinsics)), config);
@@ -118,6 +140,25 @@ Result<Traversals> trace_reread(Reading reading, const Frame& frame, float rope_
   return result;
 }
 
+// Pixels that a reading of so many has.
+double pixels_of(Reading reading, double pixels) {
+  if (reading == Reading::kHalved) return 0.25 * pixels;
+  return reading == Reading::kDoubled ? 4 * pixels : pixels;
+}
+
+// As many of `readings`, in their order, as all together have no more pixels than may be read
+// again.
+void keep_affordable(std::vector<Reading>& readings, const Frame& frame) {
+  const auto pixels = static_cast<double>(bounding_box(frame).area());
+  double sum = 0;
+  std::erase_if(readings, [&](Reading reading) {
+    const double with = sum + pixels_of(reading, pixels);
+    if (with > kMostRereadPixels) return true;
+    sum = with;
+    return false;
+  });
+}
+
 }  // namespace
 
 std::vector<Reading> further_readings(const Frame& frame, float rope_width_px) {
@@ -129,6 +170,7 @@ std::vector<Reading> further_readings(const Frame& frame, float rope_width_px) {
   const float least = kLeastUnmeasured * rope_width_px * rope_width_px;
   if (static_cast<float>(unmeasured) >= least) readings.push_back(Reading::kMeasured);
   if (rope_width_px <= kThickPx) readings.push_back(Reading::kDoubled);
+  keep_affordable(readings, frame);
   return readings;
 }
 

@@ -4,10 +4,12 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "path/fringe.hpp"
 #include "path/seams.hpp"
+#include "path/strokes.hpp"
 
 namespace flowdlo::path {
 namespace {
@@ -280,7 +282,9 @@ Result<Region> clean(const Frame& frame) {
   }
   Region region;
   region.offset_px = {box.x - kBorderPx, box.y - kBorderPx};
-  region.mask = crop(frame, box);
+  auto strokes = strokes_of(crop(frame, box), {frame.width, frame.height});
+  if (!strokes) return strokes.error();
+  region.mask = *std::move(strokes);
   erase_fringes(region.mask);
   if (erase_specks(region.mask, 0) == 0) {
     return Error{ErrorCode::kNoPath, "path: expected a stroke, got only specks of fewer than " +

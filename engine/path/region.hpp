@@ -29,7 +29,8 @@ struct Region {
 /// The smallest rectangle that holds the mask; empty without any.
 [[nodiscard]] cv::Rect bounding_box(const Frame& frame);
 
-/// Crops and cleans the mask. Fails with kNoPath when it is empty or holds specks only.
+/// Crops and cleans the mask. Fails with kNoPath when it is empty, holds specks only, or more
+/// strokes than a rope can have made.
 [[nodiscard]] Result<Region> clean(const Frame& frame);
 
 /// `region` cut along `lines`, which become seams; unchanged when nothing would be left of it.

@@ -6,6 +6,7 @@
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
+#include "path/square_brush.hpp"
 #include "path/thinning.hpp"
 #include "path/valleys.hpp"
 
@@ -27,38 +28,33 @@ constexpr float kTangentWidths = 0.5F;   // what tells a line's direction at its
 constexpr float kRunOutWidths = 0.6F;    // from there to the mask's edge
 constexpr float kSliverWidths = 0.3F;    // cut off between a seam and a slit
 
-cv::Mat square(int half) { return cv::Mat::ones(2 * half + 1, 2 * half + 1, CV_8U); }
-
-// Erosion that takes what lies outside of the image for empty.
-void erode(const cv::Mat& from, cv::Mat& to, const cv::Mat& brush) {
-  cv::erode(from, to, brush, {-1, -1}, 1, cv::BORDER_CONSTANT, cv::Scalar(0));
-}
-
 // Where `closed` is wider than one strand, for long enough to hold a seam; and what is near to
 // that. Empty when nothing is.
 cv::Mat wide_parts(const cv::Mat& closed, const SeamScale& scale) {
-  const cv::Mat strand = square(static_cast<int>(std::ceil(kWideShare * scale.narrow_px)));
-  cv::Mat wide;
-  erode(closed, wide, strand);
+  const int strand = static_cast<int>(std::ceil(kWideShare * scale.narrow_px));
+  cv::Mat wide = eroded(closed, strand);
   if (cv::countNonZero(wide) == 0) return {};
-  cv::dilate(wide, wide, strand);
-  cv::dilate(wide, wide, square(static_cast<int>(std::ceil(kReachWidths * scale.narrow_px))));
+  wide =
+      dilated(dilated(wide, strand), static_cast<int>(std::ceil(kReachWidths * scale.narrow_px)));
   cv::Mat labels;
   cv::Mat stats;
   cv::Mat centroids;
   const int count = cv::connectedComponentsWithStats(wide, labels, stats, centroids, 8, CV_32S);
+  std::vector<std::uint8_t> keep(static_cast<std::size_t>(count), 0);
   bool any = false;
   for (int i = 1; i < count; ++i) {
-    const cv::Rect box(stats.at<int>(i, cv::CC_STAT_LEFT), stats.at<int>(i, cv::CC_STAT_TOP),
-                       stats.at<int>(i, cv::CC_STAT_WIDTH), stats.at<int>(i, cv::CC_STAT_HEIGHT));
-    const auto extent = static_cast<float>(std::max(box.width, box.height));
-    if (extent >= kExtentWidths * scale.width_px) {
-      any = true;
-    } else {
-      wide(box).setTo(0, labels(box) == i);
-    }
+    const auto extent = static_cast<float>(
+        std::max(stats.at<int>(i, cv::CC_STAT_WIDTH), stats.at<int>(i, cv::CC_STAT_HEIGHT)));
+    keep[i] = extent >= kExtentWidths * scale.width_px ? 1 : 0;
+    any = any || keep[i] != 0;
   }
-  return any ? wide : cv::Mat();
+  if (!any) return {};
+  for (int v = 0; v < wide.rows; ++v) {
+    const int* label = labels.ptr<int>(v);
+    std::uint8_t* row = wide.ptr<std::uint8_t>(v);
+    for (int u = 0; u < wide.cols; ++u) row[u] = keep[label[u]];
+  }
+  return wide;
 }
 
 // The band of pixels that seams run in: of the closed mask's wide parts, what is slit or valley.
@@ -230,14 +226,10 @@ cv::Mat long_and_deep(const cv::Mat& lines, const cv::Mat& mask, const cv::Mat& 
 // strand: thin pieces beside those slits.
 void add_slits(const cv::Mat& mask, const cv::Mat& closed, float narrow_px, cv::Mat& seams) {
   const int half = std::max(1, static_cast<int>(0.5F * kSliverWidths * narrow_px));
-  const cv::Mat brush = square(half);
-  cv::Mat near;
   cv::Mat rest = mask.clone();
-  cv::Mat thick;
   rest.setTo(0, seams);
-  erode(rest, thick, brush);
-  cv::dilate(thick, thick, brush);
-  cv::dilate(seams, near, brush);
+  const cv::Mat thick = dilated(eroded(rest, half), half);
+  const cv::Mat near = dilated(seams, half);
   seams |= near & ((rest & (1 - thick)) | (closed & (1 - mask)));
 }
 
@@ -263,11 +255,8 @@ cv::Mat seams_in(const ValleyView& view, const cv::Mat& wide, float narrow_px, c
 }  // namespace
 
 cv::Mat find_seams(const cv::Mat& mask, const SeamScale& scale, const Frame& frame) {
-  const cv::Mat slit =
-      square(std::max(1, static_cast<int>(std::lround(0.5F * kSlitWidths * scale.narrow_px))));
-  cv::Mat closed;
-  cv::dilate(mask, closed, slit);
-  erode(closed, closed, slit);
+  const int slit = std::max(1, static_cast<int>(std::lround(0.5F * kSlitWidths * scale.narrow_px)));
+  const cv::Mat closed = eroded(dilated(mask, slit), slit);
   const cv::Mat wide = wide_parts(closed, scale);
   if (wide.empty()) return {};
   const int margin = valley_margin(scale.width_px);

@@ -18,7 +18,6 @@ using geometry::quantile;
 using Points = std::vector<Vector2f>;
 
 constexpr int kCalmSamples = 4;
-constexpr float kNearerMost = 2.5F;  // times nearer or farther than what is usual: else no rope
 constexpr float kRunWidths = 3.0F;   // a narrow part is at least this long,
 constexpr float kHalfLeast = 0.42F;  // between these shares of the usual width,
 constexpr float kHalfMost = 0.78F;

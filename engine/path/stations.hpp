@@ -14,6 +14,8 @@ namespace flowdlo::path {
 inline constexpr float kScanStepPx = 0.25F;
 /// And how far to each side, in usual widths, where strands may lie beside each other.
 inline constexpr float kMostScan = 2.2F;
+/// Times nearer or farther than what is usual: else no rope.
+inline constexpr float kNearerMost = 2.5F;
 
 /// Across a line at one of its points.
 struct Station {

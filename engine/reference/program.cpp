@@ -74,6 +74,8 @@ class Program final : public ops::Program {
   void record(const ops::Copy& op) override;
   void stage(std::string_view name) override { schedule_.stage(name); }
 
+  bool host_samples_points() const override { return true; }  // this is the host
+
   Result<void> build() override {
     schedule_.settle(crew_);
     return {};

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "gathered.hpp"
+#include "path/limits.hpp"
 #include "support/wave_frame.hpp"
 
 namespace flowdlo {
@@ -48,6 +49,13 @@ TEST_F(LookAgain, WhereThereIsDoubtOtherReadingsSayWhatTheyHold) {
     EXPECT_EQ(again.hypotheses[h].votes, 0);
     EXPECT_LT(again.hypotheses[h].odds, 0.1F);
   }
+}
+
+TEST_F(LookAgain, ATangleIsReadOnceHoweverDoubtful) {
+  cast_doubt();
+  conditions_.paths.strands = path::kMostRereadStrands + 1;
+  EXPECT_FALSE(estimator::in_doubt(conditions_));
+  EXPECT_EQ(look().readings, 1);
 }
 
 TEST_F(LookAgain, WhatTheFirstReadingMissedComesBehindWithTheVotesOfTheOthers) {

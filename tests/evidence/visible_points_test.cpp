@@ -48,6 +48,19 @@ TEST(Unproject, TakesFiniteDepthsAboveOneMicrometreOnly) {  // Sec. 3.2
   EXPECT_EQ(unproject(picture.frame()).pixels, (std::vector<int>{3, 7, 8}));
 }
 
+TEST(Unproject, OfMoreThanTwoMillionPixelsTakesEverySecondOrThird) {
+  constexpr std::size_t kMost = std::size_t{1} << 21;
+  Picture largest{1920, 1080};
+  largest.mask.assign(largest.pixels(), 255);
+  EXPECT_EQ(unproject(largest.frame()).pixels.size(), largest.pixels()) << "fits: all of them";
+  Picture large{2048, 2049};
+  large.mask.assign(large.pixels(), 255);
+  const auto pixels = unproject(large.frame()).pixels;
+  EXPECT_LE(pixels.size(), kMost);
+  EXPECT_EQ(pixels.size(), (large.pixels() + 2) / 3);
+  EXPECT_EQ(pixels[1], 3);
+}
+
 TEST(Unproject, LeavesOutADepthWhosePointOverflows) {
   Picture picture{100, 1};
   picture.intrinsics = {10, 10, 0, 0};

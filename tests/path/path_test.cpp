@@ -32,6 +32,20 @@ TEST(Path, FollowsAStraightStrokeFromTipToTip) {
   EXPECT_NEAR(traced->rope_width_px, 12.0F, 2.0F);
 }
 
+TEST(Path, OfTheLargestFrameIsFollowedAtHalfItsSizeAndComesBackInItsPixels) {
+  const Curve line{{300, 3500}, {2000, 700}, {3700, 3300}};
+  const Canvas canvas = Canvas(4096, 4096).stroke(line, 60);
+
+  const auto traced = path::trace(canvas.frame());
+
+  ASSERT_TRUE(traced);
+  EXPECT_NEAR(traced->rope_width_px, 60.0F, 4.0F);
+  EXPECT_LT(distance_to(traced->ranked.front().points_px, line[0]), 35.0F);
+  EXPECT_LT(distance_to(traced->ranked.front().points_px, line[1]), 20.0F);
+  EXPECT_LT(distance_to(traced->ranked.front().points_px, line[2]), 35.0F);
+  EXPECT_TRUE(sound(traced->ranked.front(), canvas.frame()));
+}
+
 TEST(Path, FollowsAnSWithinAPixelAndAHalf) {
   const Canvas canvas = Canvas().stroke(wave(), 11);
 

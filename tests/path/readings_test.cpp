@@ -165,6 +165,12 @@ TEST(FurtherReadings, WhatIsMeasuredMattersOnlyWhereSomethingIsNot) {
   EXPECT_TRUE(listed(path::further_readings(holed.frame(), 12), Reading::kMeasured));
 }
 
+TEST(FurtherReadings, OfALargeMaskAreAsFewAsItsPixelsAllow) {
+  Canvas canvas(4096, 4096);
+  canvas.stroke({{40, 40}, {4000, 4000}}, 60);
+  EXPECT_EQ(path::further_readings(canvas.frame(), 60), std::vector{Reading::kHalved});
+}
+
 TEST(FurtherReadings, NeverRepeatTheFirst) {
   const Canvas canvas = painted(wave(60, 560), 12);
   EXPECT_FALSE(listed(path::further_readings(canvas.frame(), 5), Reading::kAsGiven));

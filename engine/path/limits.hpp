@@ -1,0 +1,35 @@
+// Limits: how much of a mask is read at most, so that time and memory have a bound whatever it
+// holds. An ordinary frame reaches none of them.
+#pragma once
+
+namespace flowdlo::path {
+
+/// Pixels of the mask's bounding box that are traced as they are; a larger box is traced at a half,
+/// a third, ... of its size. 1920 x 1080 at twice its width and height.
+inline constexpr int kMostTracedPixels = 1 << 23;
+
+/// Pixels of a region that is magnified to cut thin strands apart; a larger one is cut as it is.
+/// Twice the width and height of 1920 x 1080.
+inline constexpr int kMostMagnifiedPixels = 1 << 23;
+
+/// Pixels that all further readings of a mask have together, a reading that would exceed them is
+/// left out. Four readings of 1920 x 1080 in full, one of them at twice the size.
+inline constexpr int kMostRereadPixels = 1 << 24;
+
+/// Length of a mask's strokes, in sums of the image's two sides. Over a hundred `wide` scenes and
+/// all readings of them the most is 2.9.
+inline constexpr int kMostStrokeSides = 8;
+
+/// Segments of a graph. A rope that crosses itself n times has 2 n + 1; over a hundred `wide`
+/// scenes the most is 57, and 176 in a further reading.
+inline constexpr int kMostSegments = 256;
+
+/// Strands of a first reading that is followed by others, each of which takes as long again. A rope
+/// that crosses itself 20 times has 41; over a hundred `wide` scenes the most is 31.
+inline constexpr int kMostRereadStrands = 41;
+
+/// Ends at one crossing that may pass along a strand or turn back there; over a hundred `wide` scenes
+/// and all readings of them the most is 68.
+inline constexpr int kMostAtCrossing = 96;
+
+}  // namespace flowdlo::path

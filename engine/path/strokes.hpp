@@ -1,0 +1,21 @@
+// Strokes: how long what a mask shows would be as one line, and whether a rope can be that long.
+#pragma once
+
+#include <cstdint>
+#include <opencv2/core.hpp>
+
+#include "flowdlo/result.hpp"
+
+namespace flowdlo::path {
+
+/// Half of the mask's border pixels: a stroke has one on each side. `mask` is [h, w] u8, 0 or 1,
+/// its outermost pixels 0.
+[[nodiscard]] std::int64_t stroke_length_px(const cv::Mat& mask);
+
+/// `mask` as it is where one rope can have made it in an image of that size. Otherwise after a
+/// majority filter, the smallest that leaves a mask which one rope can have made: noise goes, a
+/// rope under it stays. Fails with kNoPath where none does. One pass over the mask, four with
+/// filters.
+[[nodiscard]] Result<cv::Mat> strokes_of(cv::Mat mask, const cv::Size& image);
+
+}  // namespace flowdlo::path

@@ -1,0 +1,56 @@
+#include "hostile/cost.hpp"
+
+#include <fmt/format.h>
+#include <malloc.h>
+
+#include <algorithm>
+#include <ctime>
+#include <fstream>
+#include <limits>
+
+namespace flowdlo::lab {
+namespace {
+
+constexpr double kMegabyte = 1.0e6;
+
+double cpu_now_s() {
+  timespec now{};
+  ::clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+/// From here on the kernel keeps the peak anew.
+void forget_peak() {
+  ::malloc_trim(0);
+  std::ofstream("/proc/self/clear_refs") << "5";
+}
+
+double peak_mb() {
+  std::ifstream status("/proc/self/status");
+  for (std::string line; std::getline(status, line);) {
+    if (line.starts_with("VmHWM:")) return std::stod(line.substr(6)) * 1024 / kMegabyte;
+  }
+  return 0;
+}
+
+std::string verdict_on(const Result<Estimate>& estimate) {
+  if (estimate) return fmt::format("confidence {:.2f}", estimate->confidence);
+  return fmt::format("{}: {}", name_of(estimate.error().code), estimate.error().message);
+}
+
+}  // namespace
+
+Cost cost_of(const Frame& frame, Estimator& estimator, int rounds) {
+  Cost cost{std::numeric_limits<double>::max(), 0, {}};
+  forget_peak();
+  for (int round = 0; round < rounds; ++round) {
+    const double before = cpu_now_s();
+    const auto estimate = estimator.estimate(frame);
+    cost.cpu_s = std::min(cost.cpu_s, cpu_now_s() - before);
+    cost.verdict = verdict_on(estimate);
+  }
+  cost.peak_mb = peak_mb();
+  return cost;
+}
+
+}  // namespace flowdlo::lab

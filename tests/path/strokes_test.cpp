@@ -1,0 +1,75 @@
+// How long a mask's strokes are, and what happens to more of them than one rope has.
+#include "path/strokes.hpp"
+
+#include <gtest/gtest.h>
+
+#include "canvas.hpp"
+#include "path/limits.hpp"
+
+namespace flowdlo::test {
+namespace {
+
+constexpr std::int64_t kMost = std::int64_t{path::kMostStrokeSides} * (640 + 480);
+
+cv::Mat noise(int percent) {
+  cv::Mat mask = cv::Mat::zeros(480, 640, CV_8U);
+  cv::RNG random(7);
+  for (int v = 1; v < 479; ++v) {
+    for (int u = 1; u < 639; ++u) {
+      mask.at<std::uint8_t>(v, u) = random.uniform(0, 100) < percent ? 1 : 0;
+    }
+  }
+  return mask;
+}
+
+cv::Mat rope(int width_px) { return Canvas().stroke({{60, 100}, {560, 380}}, width_px).mask / 255; }
+
+TEST(StrokeLength, OfOneStrokeIsItsLengthWhateverItsWidth) {
+  const double length_px = std::hypot(500, 280);
+  for (const int width_px : {5, 9, 21}) {
+    EXPECT_NEAR(static_cast<double>(path::stroke_length_px(rope(width_px))), length_px,
+                0.2 * length_px + width_px);
+  }
+}
+
+TEST(StrokeLength, OfNoiseIsFarBeyondAnyRopes) {
+  EXPECT_GT(path::stroke_length_px(noise(50)), 2 * kMost);
+}
+
+TEST(Strokes, OfARopeAreTheMaskItself) {
+  const cv::Mat mask = rope(9);
+  const auto strokes = path::strokes_of(mask, {640, 480});
+  ASSERT_TRUE(strokes);
+  EXPECT_EQ(cv::countNonZero(*strokes != mask), 0);
+}
+
+TEST(Strokes, OfARopeUnderNoiseAreTheRopes) {
+  cv::Mat mask = noise(30);
+  mask |= rope(21);
+  ASSERT_GT(path::stroke_length_px(mask), kMost) << "else nothing is filtered";
+  const auto strokes = path::strokes_of(mask, {640, 480});
+  ASSERT_TRUE(strokes) << strokes.error().message;
+  EXPECT_LE(path::stroke_length_px(*strokes), kMost);
+  const cv::Mat core = rope(9);
+  EXPECT_GT(cv::countNonZero(*strokes & core), 0.95 * cv::countNonZero(core));
+}
+
+TEST(Strokes, OfATextureAreNoPathAndSaySo) {
+  Canvas canvas;
+  for (int v = 0; v < 480; ++v) {
+    for (int u = 0; u < 640; ++u) canvas.mask.at<std::uint8_t>(v, u) = u / 11 % 2 == 0 ? 255 : 0;
+    if (v / 11 % 2 == 0) canvas.mask.row(v) = 255 - canvas.mask.row(v);
+  }
+  canvas.mask.row(0) = 0;
+  canvas.mask.row(479) = 0;
+  canvas.mask.col(0) = 0;
+  canvas.mask.col(639) = 0;
+  const auto strokes = path::strokes_of(canvas.mask / 255, {320, 240});
+  ASSERT_FALSE(strokes);
+  EXPECT_EQ(strokes.error().code, ErrorCode::kNoPath);
+  EXPECT_NE(strokes.error().message.find("expected one rope"), std::string::npos);
+  EXPECT_NE(strokes.error().message.find("check the segmentation"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace flowdlo::test
