@@ -24,6 +24,7 @@
 #include "flow/sampler.hpp"
 #include "gate/calibrated.hpp"
 #include "gate/gate.hpp"
+#include "gate/one_rope.hpp"
 #include "prior/prior.hpp"
 #include "weights/kept_file.hpp"
 #include "weights/weights.hpp"
@@ -299,6 +300,8 @@ Result<Estimate> Estimator::Impl::estimate(const Frame& frame, Tensors* tensors)
                    : by_thesis(hypotheses, *prediction, verdict, assigned);
   Estimate estimate =
       conclude(returned, look.hypotheses, *prediction, std::move(verdict), mask, frame);
+  estimate.one_rope = gate::one_rope(estimate.nodes, frame, conditions->paths.rope_width_px);
+  estimate.confidence = gate::doubted(estimate.confidence, estimate.one_rope);
   estimate.readings = look.readings;
   estimate.calibrated = calibrated();
   stage.lap(timings.gate_ms);
