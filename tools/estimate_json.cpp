@@ -73,6 +73,30 @@ Json alternatives_json(const std::vector<Alternative>& alternatives) {
   return list;
 }
 
+const char* name_of(Doubt doubt) {
+  switch (doubt) {
+    case Doubt::kNoRope:
+      return "no_rope";
+    case Doubt::kStrandsLeft:
+      return "strands_left";
+    case Doubt::kBareGap:
+      return "bare_gap";
+    case Doubt::kGoesOn:
+      return "goes_on";
+  }
+  return "unknown";
+}
+
+Json one_rope_json(const OneRope& one) {
+  Json doubts = Json::array();
+  for (const Doubt doubt : one.doubts) doubts.push_back(name_of(doubt));
+  return {{"doubts", std::move(doubts)},      {"explained", number(one.explained)},
+          {"slender", number(one.slender)},   {"sides", number(one.sides)},
+          {"even", number(one.even)},         {"left_over", number(one.left_over)},
+          {"off_mask", number(one.off_mask)}, {"bare_gap", number(one.bare_gap)},
+          {"goes_on", number(one.goes_on)}};
+}
+
 Json timings_json(const Timings& timings) {
   return {{"evidence", number(timings.evidence_ms)},
           {"path", number(timings.path_ms)},
@@ -107,6 +131,7 @@ std::string estimate_json(const Estimate& estimate, const Provenance& provenance
   json["draw"] = estimate.draw < 0 ? Json(nullptr) : Json(estimate.draw);
   json["gate"] = estimate.calibrated ? "calibrated" : "thesis";
   json["confidence"] = number(estimate.confidence);
+  json["one_rope"] = one_rope_json(estimate.one_rope);
   json["readings"] = estimate.readings;
   json["mask_agreement"] = number(estimate.mask_agreement);
   json["prior_mask_agreement"] = number(estimate.prior_mask_agreement);

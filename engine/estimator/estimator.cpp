@@ -23,6 +23,7 @@
 #include "flow/sampler.hpp"
 #include "gate/calibrated.hpp"
 #include "gate/gate.hpp"
+#include "gate/one_rope.hpp"
 #include "guard/guarded.hpp"
 #include "prior/prior.hpp"
 #include "threads/aside.hpp"
@@ -289,6 +290,8 @@ Result<Estimate> Estimator::Impl::estimate(const Frame& frame, Tensors* tensors)
                    : by_thesis(hypotheses, *prediction, verdict, assigned);
   Estimate estimate =
       conclude(returned, look.hypotheses, *prediction, std::move(verdict), mask, frame);
+  estimate.one_rope = gate::one_rope(estimate.nodes, frame, conditions->paths.rope_width_px);
+  estimate.confidence = gate::doubted(estimate.confidence, estimate.one_rope);
   estimate.readings = look.readings;
   estimate.calibrated = calibrated();
   stage.lap(timings.gate_ms);

@@ -30,6 +30,28 @@ struct Alternative {
   float mask_agreement = 0;  ///< S_M, Eq. (3.32)
 };
 
+/// Why an estimate is not to be trusted, whatever else speaks for it.
+enum class Doubt {
+  kNoRope,       ///< what the mask shows has not the shape of a rope
+  kStrandsLeft,  ///< the nodes leave strands of the mask out
+  kBareGap,      ///< the nodes cross plain background from one piece of the mask to another
+  kGoesOn,       ///< depth shows the rope going on where the mask ends
+};
+
+/// Whether the mask is one rope, the whole of it, and all of it explained by the nodes. Widths are
+/// the rope's, as the mask has it.
+struct OneRope {
+  float explained = 0;        ///< [0, 1] share of the mask's area near the nodes
+  float slender = 0;          ///< length of the nodes in the image, widths
+  float sides = 0;            ///< [0, 1] share of the nodes on the mask beside which the mask ends
+  float even = 0;             ///< [0, 1] share of these where the mask is as wide as the rope
+  float left_over = 0;        ///< length of the strands that the nodes leave out, widths
+  float off_mask = 0;         ///< [0, 1] share of the nodes off the mask where nothing hides them
+  float bare_gap = 0;         ///< longest stretch of nodes on plain background, widths
+  float goes_on = 0;          ///< how far the rope is seen going on beyond the mask, widths
+  std::vector<Doubt> doubts;  ///< empty: none of this lowers `confidence`
+};
+
 /// Milliseconds of each stage of one call.
 struct Timings {
   double evidence_ms = 0;    ///< Sec. 3.2
@@ -58,7 +80,9 @@ struct Estimate {
   /// of `nodes` from the true ones, Eq. (4.1), is below 1 cm. Thesis gate: that `nodes` visit the
   /// rope in order and leave no loop out. Logistic models fitted on synthetic scenes: below 0.5
   /// another way through the mask, or a mask that hides the way, has to be reckoned with.
+  /// A doubt about the mask (`one_rope`) leaves at most 0.25 of it.
   float confidence = 0;
+  OneRope one_rope;
   float mask_agreement = 0;               ///< S_M of `nodes`, Eq. (3.32), in [0, 1]
   float prior_mask_agreement = 0;         ///< S_M of the prior
   std::vector<DrawReport> draws;          ///< one for each draw

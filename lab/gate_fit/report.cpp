@@ -11,6 +11,7 @@
 
 #include "eval/interval.hpp"
 #include "eval/metrics.hpp"
+#include "gate/one_rope.hpp"
 #include "gate_fit/fit.hpp"
 #include "geometry/quantile.hpp"
 
@@ -58,6 +59,9 @@ Row row_of(const GateSample& sample, const gate::GateWeights& weights) {
   row.predicted = candidates[choice.chosen].draw >= 0;
   row.close = errors_m(sample)[choice.chosen] < gate::kCloseError_m;
   row.probability = choice.probability;
+  if (!sample.doubted.empty() && sample.doubted[choice.chosen] != 0) {
+    row.probability = std::min(row.probability, static_cast<double>(gate::kDoubted));
+  }
   const auto off_m = node_errors_m(candidates[choice.chosen].nodes, sample.truth);
   for (std::size_t node = 0; node < kNodes; ++node) {
     const auto sigma_m = static_cast<double>(choice.sigma_m[node]);

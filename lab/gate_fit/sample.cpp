@@ -6,6 +6,7 @@
 #include "eval/metrics.hpp"
 #include "evidence/mask_field.hpp"
 #include "gate/gate.hpp"
+#include "gate/one_rope.hpp"
 
 namespace flowdlo::lab {
 namespace {
@@ -60,6 +61,10 @@ std::optional<GateSample> measure(const synth::SyntheticFrame& scene, flow::Samp
   sample.candidates =
       estimator::list_candidates(look, conditions->paths.rope_width_px, drawn->prediction,
                                  drawn->reports, drawn->assigned, frame, rope_length_m);
+  for (const gate::Candidate& candidate : sample.candidates) {
+    const auto one = gate::one_rope(candidate.nodes, frame, conditions->paths.rope_width_px);
+    sample.doubted.push_back(one.doubts.empty() ? 0 : 1);
+  }
   return sample;
 }
 

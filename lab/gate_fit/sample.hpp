@@ -20,6 +20,7 @@ struct GateSample {
   bool hard = false;
   Centerline truth{};                       ///< canonical direction
   std::vector<gate::Candidate> candidates;  ///< as estimator::list_candidates lists them
+  std::vector<std::uint8_t> doubted;  ///< [candidates] 1: gate::one_rope doubts it; empty: unknown
 };
 
 /// Nothing where the engine finds no path or the device fails. Priors alone where `sampler` is

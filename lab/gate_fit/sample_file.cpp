@@ -13,7 +13,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr int kFormat = 3;  // rises with what a candidate holds
+constexpr int kFormat = 4;  // rises with what a sample holds
 
 /// Calls `field` with the name and value of each number of a candidate.
 template <class Candidate, class Field>
@@ -71,6 +71,7 @@ Json to_json(const GateSample& sample) {
   Json json{
       {"index", sample.index}, {"scenario", sample.scenario},       {"easy", sample.easy},
       {"hard", sample.hard},   {"truth", nodes_json(sample.truth)}, {"candidates", Json::array()}};
+  json["doubted"] = sample.doubted;
   for (const gate::Candidate& candidate : sample.candidates) {
     Json entry{{"nodes", nodes_json(candidate.nodes)},
                {"sigma_m", candidate.sigma_m},
@@ -88,6 +89,7 @@ GateSample sample_from(const Json& json) {
   json.at("easy").get_to(sample.easy);
   json.at("hard").get_to(sample.hard);
   sample.truth = nodes_from(json.at("truth"));
+  json.at("doubted").get_to(sample.doubted);
   for (const Json& entry : json.at("candidates")) {
     gate::Candidate candidate;
     candidate.nodes = nodes_from(entry.at("nodes"));

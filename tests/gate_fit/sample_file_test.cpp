@@ -35,6 +35,7 @@ SampleFile content() {
   candidate.tube.mask_recall = 0.75F;
   candidate.tube.sharpest_bend = 0.125F;
   sample.candidates = {candidate};
+  sample.doubted = {1};
   return {.scenes = 3, .samples = {sample}};
 }
 
@@ -66,6 +67,7 @@ TEST(SampleFile, GivesBackWhatWasWritten) {
   EXPECT_EQ(sample.candidates[0].odds, 0.3F);
   EXPECT_EQ(sample.candidates[0].tube.mask_recall, 0.75F);
   EXPECT_EQ(sample.candidates[0].tube.sharpest_bend, 0.125F);
+  EXPECT_EQ(sample.doubted, expected.doubted);
 }
 
 TEST(SampleFile, OfAnotherModelCountsAsNone) {
