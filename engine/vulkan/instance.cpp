@@ -4,6 +4,7 @@
 #include <array>
 #include <string_view>
 
+#include "vulkan/absence.hpp"
 #include "vulkan/check.hpp"
 
 namespace flowdlo::vulkan {
@@ -116,8 +117,9 @@ Result<std::unique_ptr<Instance>> Instance::create(bool validation) {
     return Error{ErrorCode::kNoDevice,
                  "Vulkan loader: expected vkCreateInstance, found none; update libvulkan1"};
   }
-  const auto created =
-      check(create(&info, nullptr, &instance->handle_), "vkCreateInstance", kNoDeviceYet);
+  const VkResult result = create(&info, nullptr, &instance->handle_);
+  if (result == VK_ERROR_INCOMPATIBLE_DRIVER) return no_driver();
+  const auto created = check(result, "vkCreateInstance", kNoDeviceYet);
   if (!created) return created.error();
   const auto loaded = instance->load_functions(layered);
   if (!loaded) return loaded.error();
