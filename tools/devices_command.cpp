@@ -55,7 +55,7 @@ void print_device(const DeviceReport& device) {
 void print_table(const DeviceSurvey& survey) {
   fmt::print("Vulkan loader: {}\n\n", survey.loader);
   for (const auto& device : survey.vulkan) print_device(device);
-  if (survey.vulkan.empty()) fmt::print("No Vulkan device.\n\n");
+  if (!survey.advice.empty()) fmt::print("No Vulkan device to use.\n  {}\n\n", survey.advice);
   fmt::print("cpu\n  {:<10} built in, always there\n\n", "kind");
   fmt::print("--device auto takes: {}\n", survey.auto_choice);
 }
@@ -74,8 +74,10 @@ void print_json(const DeviceSurvey& survey) {
                        {"self_test_passed", device.self_test_passed},
                        {"self_test", device.self_test}});
   }
-  const Json json = {
-      {"loader", survey.loader}, {"vulkan", devices}, {"auto_choice", survey.auto_choice}};
+  const Json json = {{"loader", survey.loader},
+                     {"vulkan", devices},
+                     {"advice", survey.advice},
+                     {"auto_choice", survey.auto_choice}};
   fmt::print("{}\n", json.dump(2, ' ', false, Json::error_handler_t::replace));
 }
 

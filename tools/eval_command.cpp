@@ -87,17 +87,17 @@ Result<std::string> sum_of_weights(const fs::path& named) {
 }
 
 Result<eval::RunInfo> describe(const EvalOptions& options, const std::vector<FrameEntry>& frames,
-                               const eval::Shard& shard, const std::string& device) {
+                               const eval::Shard& shard, const Estimator& estimator) {
   const auto sum = sum_of_weights(options.config.weights);
   if (!sum) return sum.error();
   eval::RunInfo info;
-  info.settings = eval::settings_of(options.config, *sum);
+  info.settings = eval::settings_of(eval::in_full(options.config, estimator), *sum);
   info.settings["build"] = build_sum();
   const auto others = eval::settings_of(options.contenders);
   if (!others) return others.error();
   info.settings.insert(others->begin(), others->end());
   info.weights = options.config.weights.string();
-  info.device = device;
+  info.device = estimator.device();
   bool recorded = false;
   for (const FrameEntry& entry : frames) {
     info.frames.push_back(entry.name);
@@ -258,7 +258,7 @@ ExitCode run(const EvalOptions& options) {
   }
   auto evaluators = create_evaluators(options, frames->size());
   if (!evaluators) return complain(evaluators.error(), ExitCode::kUsage);
-  const auto info = describe(options, *frames, *shard, evaluators->front().device());
+  const auto info = describe(options, *frames, *shard, evaluators->front().estimator());
   if (!info) return complain(info.error(), ExitCode::kUsage);
   if (const auto made = make_out(options.out); !made) return complain(made.error());
   auto file = eval::RowFile::open(options.out, *info);

@@ -112,6 +112,7 @@ DeviceSurvey surveyed(bool self_test) {
   vulkan::Survey found = vulkan::survey();
   survey.vulkan = std::move(found.devices);
   survey.loader = std::move(found.loader);
+  survey.advice = std::move(found.advice);
   for (DeviceReport& report : survey.vulkan) {
     if (!self_test || !report.lacks.empty()) continue;
     report.self_test_run = true;
@@ -130,7 +131,8 @@ DeviceSurvey surveyed(bool self_test) {
   }
 #else
   (void)self_test;
-  survey.loader = "none: built without Vulkan";
+  survey.loader = "none";
+  survey.advice = "this library was built without Vulkan; build it with FLOWDLO_WITH_VULKAN=ON";
   survey.auto_choice = "cpu";
 #endif
   return survey;

@@ -253,10 +253,10 @@ Result<Estimate> Estimator::Impl::estimate(const Frame& frame, Tensors* tensors)
   estimator::Stopwatch total;
   const auto conditions =
       estimator::gather(frame, config.rope_length_m, prior_kind(), timings);  // Sec. 3.2, 3.3
+  estimator::Stopwatch stage;
   if (!conditions) return conditions.error();
   auto looking = look_again(*conditions, frame, timings.readings_ms);
 
-  estimator::Stopwatch stage;
   const auto& hypotheses = conditions->hypotheses;
   const auto assigned = assign(hypotheses);
   std::vector<prior::Prior> draw_priors;
@@ -279,6 +279,7 @@ Result<Estimate> Estimator::Impl::estimate(const Frame& frame, Tensors* tensors)
   timings.device_ms = sampler.stage_times_ms();
   stage.lap(timings.model_ms);
   const estimator::SecondLook look = looking.get();
+  stage.skip();  // readings_ms has it
 
   const gate::DilatedMask mask(frame);
   auto verdict = gate::choose(prediction->draws, draw_prior_nodes, hypotheses.front().prior.nodes,

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cctype>
 
+#include "vulkan/absence.hpp"
 #include "vulkan/program.hpp"
 
 namespace flowdlo::vulkan {
@@ -47,18 +48,14 @@ std::string objection(const PhysicalDevice& device, const Selection& selection) 
   return {};
 }
 
-Error none_usable(const std::vector<PhysicalDevice>& devices, const Selection& selection) {
-  if (devices.empty()) {
-    return {ErrorCode::kNoDevice,
-            "no usable Vulkan device: the loader found no driver; install one "
-            "(mesa-vulkan-drivers), or take the device \"cpu\""};
-  }
+Error refusal(const std::vector<PhysicalDevice>& devices, const Selection& selection) {
+  if (devices.empty()) return no_device();
   std::string text;
   for (const PhysicalDevice& device : devices) {
     text += fmt::format("{}\"{}\": {}", text.empty() ? "" : "; ", device.report.name,
                         objection(device, selection));
   }
-  return {ErrorCode::kNoDevice, "no usable Vulkan device: " + text};
+  return none_usable(text);
 }
 
 }  // namespace
@@ -81,15 +78,20 @@ int preference(DeviceKind kind) {
 
 Survey survey() {
   Survey result;
+  const auto loader = Loader::open();
+  if (loader) result.loader = (*loader)->version();
   const auto instance = Instance::create(false);
   if (!instance) {
-    result.loader = instance.error().message;
+    result.advice = instance.error().message;
     return result;
   }
-  result.loader = (*instance)->loader().version();
-  for (PhysicalDevice& device : physical_devices(**instance)) {
-    result.devices.push_back(std::move(device.report));
+  const std::vector<PhysicalDevice> devices = physical_devices(**instance);
+  bool usable = false;
+  for (const PhysicalDevice& device : devices) {
+    usable = usable || objection(device, Selection{}).empty();
+    result.devices.push_back(device.report);
   }
+  if (!usable) result.advice = refusal(devices, Selection{}).message;
   return result;
 }
 
@@ -103,7 +105,7 @@ Result<std::shared_ptr<Device>> open_device(const Selection& selection) {
     if (best == nullptr || preference(device.report.kind) < preference(best->report.kind))
       best = &device;
   }
-  if (best == nullptr) return none_usable(devices, selection);
+  if (best == nullptr) return refusal(devices, selection);
   return Device::open(*std::move(instance), *best);
 }
 

@@ -30,7 +30,8 @@ struct Selection {
 
 struct Survey {
   std::vector<DeviceReport> devices;  ///< in the loader's order; the self-test fields are empty
-  std::string loader;                 ///< version of the Vulkan loader, or why there is none
+  std::string loader = "none";        ///< version of the Vulkan loader
+  std::string advice;  ///< where no device is usable: why, and what to install; otherwise empty
 };
 
 /// Every Vulkan device with what it lacks. Never fails: no Vulkan, no devices.

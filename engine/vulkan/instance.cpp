@@ -5,6 +5,7 @@
 #include <exception>
 #include <string_view>
 
+#include "vulkan/absence.hpp"
 #include "vulkan/check.hpp"
 
 namespace flowdlo::vulkan {
@@ -120,8 +121,9 @@ Result<std::unique_ptr<Instance>> Instance::create(bool validation) {
     return Error{ErrorCode::kNoDevice,
                  "Vulkan loader: expected vkCreateInstance, found none; update libvulkan1"};
   }
-  const auto created =
-      check(create(&info, nullptr, &instance->handle_), "vkCreateInstance", kNoDeviceYet);
+  const VkResult result = create(&info, nullptr, &instance->handle_);
+  if (result == VK_ERROR_INCOMPATIBLE_DRIVER) return no_driver();
+  const auto created = check(result, "vkCreateInstance", kNoDeviceYet);
   if (!created) return created.error();
   const auto loaded = instance->load_functions(layered);
   if (!loaded) return loaded.error();

@@ -3,6 +3,8 @@
 #include <dlfcn.h>
 #include <fmt/format.h>
 
+#include "vulkan/absence.hpp"
+
 namespace flowdlo::vulkan {
 
 std::string version_text(std::uint32_t packed) {
@@ -15,16 +17,14 @@ Loader::~Loader() { dlclose(library_); }
 Result<std::shared_ptr<const Loader>> Loader::open() {
   void* library = dlopen("libvulkan.so.1", RTLD_NOW | RTLD_LOCAL);
   if (library == nullptr) {
-    return Error{ErrorCode::kNoDevice,
-                 "Vulkan loader: expected libvulkan.so.1, found none; install libvulkan1"};
+    const char* const reason = dlerror();
+    return no_loader(reason != nullptr ? reason : "none");
   }
   const auto get =
       reinterpret_cast<PFN_vkGetInstanceProcAddr>(dlsym(library, "vkGetInstanceProcAddr"));
   if (get == nullptr) {
     dlclose(library);
-    return Error{
-        ErrorCode::kNoDevice,
-        "Vulkan loader: libvulkan.so.1 has no vkGetInstanceProcAddr; reinstall libvulkan1"};
+    return no_loader("one without vkGetInstanceProcAddr");
   }
   std::shared_ptr<Loader> loader(new Loader(library, get));
   const auto version_of = reinterpret_cast<PFN_vkEnumerateInstanceVersion>(

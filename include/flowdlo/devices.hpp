@@ -25,12 +25,13 @@ struct DeviceReport {
 
 struct DeviceSurvey {
   std::vector<DeviceReport> vulkan;  ///< in the driver's order
-  std::string loader;                ///< version of the Vulkan loader, or why there is none
-  std::string auto_choice;           ///< what Config::device = "auto" takes: a name, or "cpu"
+  std::string loader;                ///< version of the Vulkan loader, or "none"
+  std::string advice;       ///< where no Vulkan device is usable: why, and what to install for one
+  std::string auto_choice;  ///< what Config::device = "auto" takes: a name, or "cpu"
 };
 
 /// Looks at every Vulkan device; with `self_test`, runs a known-answer model on each usable one.
-/// Never fails: a machine without Vulkan has an empty list, and `loader` says why.
+/// Never fails: a machine without Vulkan has an empty list, and `advice` says why.
 [[nodiscard]] FLOWDLO_EXPORT DeviceSurvey survey_devices(bool self_test);
 
 }  // namespace flowdlo

@@ -52,12 +52,13 @@ struct OneRope {
   std::vector<Doubt> doubts;  ///< empty: none of this lowers `confidence`
 };
 
-/// Milliseconds of each stage of one call.
+/// Milliseconds of each stage of one call. With Config::threads = 1 the stages sum to total_ms; with
+/// more threads they exceed it by what of readings_ms ran beside mask_field_ms and model_ms.
 struct Timings {
   double evidence_ms = 0;    ///< Sec. 3.2
   double path_ms = 0;        ///< Sec. 3.3, mask to ordered path
   double prior_ms = 0;       ///< Eq. (3.1)-(3.7), and comparing the traversals with the frame
-  double readings_ms = 0;    ///< further readings of the mask; beside model_ms where threads allow
+  double readings_ms = 0;    ///< further readings of the mask, from the first to the last
   double mask_field_ms = 0;  ///< the field that the local features of Eq. (3.15) read
   double model_ms = 0;       ///< Eq. (3.26)-(3.28), upload and read-back included
   double gate_ms = 0;        ///< Eq. (3.30)-(3.33)

@@ -54,6 +54,14 @@ void add_scores(const Estimate& estimate, const Tensors& tensors, const Centerli
 
 }  // namespace
 
+Config in_full(const Config& config, const Estimator& estimator) {
+  Config full = config;
+  full.quality = Quality::kFull;
+  full.euler_steps = estimator.euler_steps();
+  full.draws = estimator.draws();
+  return full;
+}
+
 Result<Evaluator> Evaluator::create(const Config& config, const ContenderConfig& contenders) {
   auto estimator = Estimator::create(config);
   if (!estimator) return estimator.error();
@@ -61,7 +69,7 @@ Result<Evaluator> Evaluator::create(const Config& config, const ContenderConfig&
   if (!thesis) return thesis.error();
   auto refined = Estimator::create(prior_config(config, PriorChoice::kRefined));
   if (!refined) return refined.error();
-  auto others = Contenders::create(config, contenders);
+  auto others = Contenders::create(in_full(config, *estimator), contenders);
   if (!others) return others.error();
   return Evaluator(*std::move(estimator), *std::move(thesis), *std::move(refined),
                    *std::move(others));

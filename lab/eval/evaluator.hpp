@@ -11,6 +11,9 @@
 
 namespace flowdlo::eval {
 
+/// `config` with the K and D that `estimator`, made of it, runs: those that its quality stands for.
+[[nodiscard]] Config in_full(const Config& config, const Estimator& estimator);
+
 /// One estimator for the estimate and one a kind of prior, and the contenders asked for. One
 /// instance a thread.
 class Evaluator {
@@ -26,7 +29,6 @@ class Evaluator {
   [[nodiscard]] Trial run(const Result<FrameFolder>& frame, const Result<SceneInfo>& scene,
                           const std::filesystem::path& path, const std::string& name);
 
-  [[nodiscard]] const std::string& device() const { return estimator_.device(); }
   [[nodiscard]] const Estimator& estimator() const { return estimator_; }
 
  private:

@@ -21,7 +21,7 @@ Config config(int threads) {
 }
 
 TEST(FewThreads, GiveTheSameBits) {
-  const WaveFrame frame = testing::ring_frame();
+  const testing::RingFrame frame;
   auto all = Estimator::create(config(4));
   ASSERT_TRUE(all) << all.error().message;
   const auto expected = all->estimate(frame.frame());

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "flowdlo/frame_folder.hpp"
+#include "flowdlo/weights.hpp"
 #include "frame/temporary_folder.hpp"
 #include "scene/scene.hpp"
 #include "tools/program.hpp"
@@ -47,6 +48,20 @@ TEST(EvalCommand, WritesTablesRowsAndPlots) {
   EXPECT_THAT(outcome.out, StartsWith(test::read_text(out / "tables.md")));
   EXPECT_THAT(outcome.out, HasSubstr("| all | 2 |"));
   EXPECT_THAT(test::read_text(out / "rows.csv"), HasSubstr("\ntwo,"));
+}
+
+TEST(EvalCommand, QualityFastNamesTheStepsAndDrawsThatRan) {
+  const TemporaryFolder scratch;
+  const fs::path data_set = scratch.path() / "scenes";
+  fs::create_directory(data_set);
+  save_scene(data_set, "one", 1);
+  const fs::path weights = scratch.path() / "fast.fdw";
+  ASSERT_TRUE(set_fast_quality(FLOWDLO_WEIGHTS, /*steps=*/3, /*draws=*/2, weights));
+  const auto outcome = run_flowdlo(
+      scratch.path(), {"eval", data_set.string(), "--out", (scratch.path() / "out").string(),
+                       "--device", "cpu", "--weights", weights.string(), "--quality", "fast"});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("2 draws of 3 steps"));
 }
 
 TEST(EvalCommand, SweepMeasuresErrorAgainstStepsAndDraws) {

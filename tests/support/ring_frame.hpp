@@ -1,28 +1,42 @@
-// A small drawn frame of a closed ring: its ends are a guess, so that its mask is read in other
-// ways as well.
+// RingFrame: a rope closed to a ring. Nobody can see where its ends are: there is always doubt.
 #pragma once
 
 #include <cmath>
+#include <cstdint>
+#include <vector>
 
-#include "support/wave_frame.hpp"
+#include "flowdlo/frame.hpp"
 
 namespace flowdlo::testing {
 
-inline WaveFrame ring_frame() {
-  constexpr float kRadius_px = 40;
-  constexpr float kHalfRope_px = 3.5F;
-  WaveFrame frame(160, 120);
-  for (int v = 0; v < frame.height; ++v) {
-    for (int u = 0; u < frame.width; ++u) {
-      const float from_centre_px = std::hypot(static_cast<float>(u) - frame.camera.cx,
-                                              static_cast<float>(v) - frame.camera.cy);
-      const bool rope = std::abs(from_centre_px - kRadius_px) <= kHalfRope_px;
-      const auto pixel = static_cast<std::size_t>(v) * frame.width + static_cast<std::size_t>(u);
-      frame.mask[pixel] = rope ? 255 : 0;
-      frame.depth_m[pixel] = rope ? 0.4F : 0.0F;
+/// 320 x 240 px, the rope 10 px thick and 0.5 m away.
+struct RingFrame {
+  RingFrame() {
+    for (int v = 0; v < kHeight; ++v) {
+      for (int u = 0; u < kWidth; ++u) {
+        const float off_px = std::abs(std::hypot(u - 160.0F, v - 120.0F) - kRadius_px);
+        mask.push_back(off_px <= kHalfWidth_px ? 255 : 0);
+        depth_m.push_back(off_px <= kHalfWidth_px ? kRope_m : kTable_m);
+      }
     }
   }
-  return frame;
-}
+
+  [[nodiscard]] Frame frame() const {
+    return {.width = kWidth,
+            .height = kHeight,
+            .intrinsics = {300, 300, 160, 120},
+            .depth_m = depth_m,
+            .mask = mask};
+  }
+
+  static constexpr int kWidth = 320;
+  static constexpr int kHeight = 240;
+  static constexpr float kRadius_px = 80;
+  static constexpr float kHalfWidth_px = 5;
+  static constexpr float kRope_m = 0.5F;
+  static constexpr float kTable_m = 0.51F;
+  std::vector<float> depth_m;
+  std::vector<std::uint8_t> mask;
+};
 
 }  // namespace flowdlo::testing

@@ -1,0 +1,49 @@
+// Timings: what the stages of a call say about its time.
+#include <gtest/gtest.h>
+
+#include <stdexcept>
+
+#include "flowdlo/estimator.hpp"
+#include "support/ring_frame.hpp"
+
+namespace flowdlo {
+namespace {
+
+constexpr double kNoise = 0.02;  // of a call, between two readings of the clock
+
+/// Of a frame that leaves doubt, so that its mask is read again.
+Timings timings_of(int threads) {
+  auto estimator = Estimator::create({.weights = FLOWDLO_WEIGHTS,
+                                      .device = "cpu",
+                                      .euler_steps = 1,
+                                      .draws = 1,
+                                      .gate = GateChoice::kCalibrated,
+                                      .threads = threads});
+  if (!estimator) throw std::runtime_error(estimator.error().message);
+  const testing::RingFrame ring;
+  auto estimate = estimator->estimate(ring.frame());
+  if (!estimate) throw std::runtime_error(estimate.error().message);
+  if (estimate->readings < 2) throw std::runtime_error("the mask was read once only");
+  return estimate->timings;
+}
+
+/// All but the further readings.
+double others_ms(const Timings& timings) {
+  return timings.evidence_ms + timings.path_ms + timings.prior_ms + timings.mask_field_ms +
+         timings.model_ms + timings.gate_ms;
+}
+
+TEST(Timings, OfOneThreadSumToTheTotal) {
+  const Timings timings = timings_of(1);
+  EXPECT_GT(timings.readings_ms, 0.1 * timings.total_ms);
+  EXPECT_NEAR((others_ms(timings) + timings.readings_ms) / timings.total_ms, 1, kNoise);
+}
+
+TEST(Timings, OfReadingsBesideTheModelCountForNoOtherStage) {
+  const Timings timings = timings_of(2);
+  EXPECT_GT(timings.readings_ms, 0);
+  EXPECT_LE(others_ms(timings), (1 + kNoise) * timings.total_ms);
+}
+
+}  // namespace
+}  // namespace flowdlo
