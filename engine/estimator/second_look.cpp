@@ -21,6 +21,10 @@ constexpr std::size_t kOfEach = 2;  // hypotheses of a further reading
 constexpr double kSamePlace = 2;    // rope radii between the mean nodes of one and the same
 constexpr double kOddsScore = 1;    // score that makes a hypothesis e times as likely
 
+/// Length of a path that is worth another reading, in sums of the image's two sides: over a hundred
+/// `wide` scenes the most is 1.8. Each reading lifts paths as long as the first one's.
+constexpr int kMostSides = 3;
+
 using Reading = std::vector<Hypothesis>;  // what one reading brought forth, best first
 
 /// What one reading makes of the frame; nothing where it fails.
@@ -106,6 +110,12 @@ void count_votes(const std::vector<Reading>& readings, double radius_m,
   }
 }
 
+bool short_enough(const path::Traversals& paths, const Frame& frame) {  // a pixel a sample
+  const auto most =
+      static_cast<std::size_t>(kMostSides) * static_cast<std::size_t>(frame.width + frame.height);
+  return paths.ranked.front().points_px.size() <= most;
+}
+
 }  // namespace
 
 bool in_doubt(const Conditions& conditions) {
@@ -119,7 +129,8 @@ SecondLook look_again(const Conditions& conditions, const Frame& frame, double r
   const auto& first = conditions.hypotheses;
   const float width_px = conditions.paths.rope_width_px;
   std::vector<path::Reading> kinds;
-  if (in_doubt(conditions)) kinds = path::further_readings(frame, width_px);
+  if (in_doubt(conditions) && short_enough(conditions.paths, frame))
+    kinds = path::further_readings(frame, width_px);
   auto readings = read(kinds, conditions, frame, rope_length_m, kind, threads);
   readings.insert(readings.begin(), first);
   const auto radius_m = static_cast<double>(

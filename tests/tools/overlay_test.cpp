@@ -61,6 +61,18 @@ TEST(Overlay, EndsAreMarkedBeyondTheTips) {
   EXPECT_GT(pixels_near(picture, kRimColor, {548, 225, 25, 30}), 60) << "B, dark";
 }
 
+TEST(Overlay, MaskIsOutlinedAlongItsBorderAndNowhereElse) {
+  const Scene scene;
+  const auto picture = draw_overlay(scene.frame(), Estimate{}, "cpu");
+  const auto at = [&](int u, int v) { return picture.at<cv::Vec3b>(v, u)[0]; };
+  const auto plain = at(300, 120);
+  EXPECT_GT(at(300, 235), plain + 40) << "the topmost row of the mask";
+  EXPECT_GT(at(300, 245), plain + 40) << "the lowest";
+  EXPECT_GT(at(80, 240), plain + 40) << "the leftmost column";
+  EXPECT_EQ(at(300, 240), plain) << "inside";
+  EXPECT_EQ(at(300, 231), plain) << "well outside";
+}
+
 TEST(Overlay, NearerStrandIsDrawnOverTheOther) {
   Scene scene;
   auto estimate = test::sample_estimate();
