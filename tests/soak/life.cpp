@@ -14,6 +14,9 @@ namespace {
 constexpr int kKnownFrames = 6;
 constexpr int kMostFrames = 8;  // of one life
 constexpr int kSmallestSide_px = 64;
+constexpr double kSmallestScale = 0.2;  // of a scene's own size
+constexpr double kLargestScale = 1.2;
+constexpr int kMostThreads = 4;
 
 /// A scene at another size, by the nearest pixel.
 struct ScaledFrame {
@@ -54,7 +57,8 @@ ScaledFrame known_frame(int index) {
 
 ScaledFrame random_frame(std::mt19937_64& dice) {
   const auto kind = static_cast<lab::Kind>(dice() % lab::kKinds);
-  const double scale = 0.2 + 0.01 * static_cast<double>(dice() % 100);
+  const double share = static_cast<double>(dice() % 1000) / 1000;
+  const double scale = kSmallestScale + share * (kLargestScale - kSmallestScale);
   ScaledFrame frame = scaled(lab::make_scene(kind, dice()), scale);
   const bool spoiled = dice() % 8 == 0;
   if (spoiled && dice() % 2 == 0) frame.mask.assign(frame.mask.size(), 0);  // no evidence
@@ -88,7 +92,7 @@ Config random_config(const Place& place, const std::string& weights, std::mt1993
   config.device = place.device;
   config.euler_steps = dice() % 4 == 0 ? 4 : 1;
   config.draws = dice() % 4 == 0 ? 3 : 1;
-  config.threads = static_cast<int>(1 + dice() % 4);
+  config.threads = static_cast<int>(1 + dice() % kMostThreads);
   config.max_width = dice() % 2 == 0 ? 160 : 1280;  // smaller than some frames: memory grows later
   config.max_height = config.max_width * 3 / 4;
   return config;
@@ -101,6 +105,22 @@ bool Memory::agrees(const std::string& device, int steps, int draws, int frame,
   const auto [entry, is_new] = first_.emplace(std::tuple(device, steps, draws, frame), bits);
   if (!is_new) ++comparisons_;
   return entry->second == bits;
+}
+
+Result<void> warm_up(const Place& place, const std::string& weights) {
+  Config config;
+  config.weights = weights;
+  config.device = place.device;
+  config.euler_steps = 1;
+  config.threads = kMostThreads;
+  auto estimator = Estimator::create(config);
+  if (!estimator) return estimator.error();
+  for (int kind = 0; kind < lab::kKinds; ++kind) {
+    const auto largest = scaled(lab::make_scene(static_cast<lab::Kind>(kind), 1), kLargestScale);
+    const auto estimate = estimator->estimate(largest.frame());
+    if (!estimate && estimate.error().code == ErrorCode::kInternal) return estimate.error();
+  }
+  return {};
 }
 
 Result<void> live(const Place& place, const std::string& weights, std::mt19937_64& dice,

@@ -38,6 +38,10 @@ struct Tally {
   long refused = 0;  ///< frames that were answered with an Error
 };
 
+/// One estimator, and the largest frame of every kind: buffers, caches and drivers take what they
+/// ever will.
+[[nodiscard]] Result<void> warm_up(const Place& place, const std::string& weights);
+
 /// Makes an estimator of a random kind, shows it random scenes of random sizes, some frames that
 /// cannot be estimated and some that were seen before, and lets it go. The text of a failure is
 /// what was promised and not kept.

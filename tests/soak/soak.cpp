@@ -54,6 +54,10 @@ void report(const Trial& trial, double minutes) {
 /// Runs one device alone, so that what grows has a name.
 bool soak(Trial& trial, const std::string& weights, double seconds, std::mt19937_64& dice,
           flowdlo::soak::Memory& memory) {
+  if (const auto warm = flowdlo::soak::warm_up(trial.place, weights); !warm) {
+    fmt::print("failed at once: {}\n", warm.error().message);
+    return false;
+  }
   const auto begin = Clock::now();
   const auto elapsed_s = [&] {
     return std::chrono::duration<double>(Clock::now() - begin).count();
