@@ -6,41 +6,47 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <nlohmann/json.hpp>
 #include <optional>
 
 #include "frame/faults.hpp"
 #include "frame/limits.hpp"
+#include "json/parse.hpp"
 
 namespace flowdlo::frame {
 namespace {
 
-using Json = nlohmann::json;
+using json::Value;
 
 constexpr double kMillimetre_m = 0.001;
 
 struct Reader {
-  const Json& json;
+  const Value& json;
   const std::string& who;
   Faults& faults;
 
+  [[nodiscard]] bool has(const char* key) const { return json.find(key) != nullptr; }
   void fault(const std::string& text) { faults.bad_input(who + ": " + text); }
 };
 
-// What came instead, short enough for a message. Nested values are not written out: that recurses.
-std::string shown(const Json& value) {
+// What came instead, short enough for a message. Nested values are not written out.
+std::string shown(const Value& value) {
   constexpr std::size_t kLongest = 40;
-  const bool nested = std::any_of(value.begin(), value.end(),
-                                  [](const Json& entry) { return entry.is_structured(); });
-  if (nested) return value.is_array() ? "a nested array" : "a nested object";
-  std::string text = value.dump(-1, ' ', true, Json::error_handler_t::replace);
+  const auto structured = [](const Value& entry) { return entry.is_structured(); };
+  if (std::any_of(value.elements.begin(), value.elements.end(), structured)) {
+    return "a nested array";
+  }
+  if (std::any_of(value.members.begin(), value.members.end(),
+                  [&](const json::Member& member) { return structured(member.value); })) {
+    return "a nested object";
+  }
+  std::string text = json::text_of(value);
   if (text.size() > kLongest) text = text.substr(0, kLongest) + "...";
   return text;
 }
 
 std::optional<double> number(Reader& reader, const char* key) {
-  const auto found = reader.json.find(key);
-  if (found == reader.json.end()) {
+  const Value* const found = reader.json.find(key);
+  if (found == nullptr) {
     reader.fault(fmt::format("\"{}\" is missing; add it", key));
     return std::nullopt;
   }
@@ -48,7 +54,7 @@ std::optional<double> number(Reader& reader, const char* key) {
     reader.fault(fmt::format("\"{}\": expected a number, got {}", key, shown(*found)));
     return std::nullopt;
   }
-  return found->get<double>();
+  return found->number;
 }
 
 int side(Reader& reader, const char* key) {
@@ -58,7 +64,7 @@ int side(Reader& reader, const char* key) {
     return static_cast<int>(*value);
   }
   reader.fault(fmt::format("\"{}\": expected a whole number from 1 to {}, got {}", key, kMaxSide_px,
-                           shown(reader.json[key])));
+                           shown(*reader.json.find(key))));
   return 0;
 }
 
@@ -89,17 +95,18 @@ double depth_scale(Reader& reader, double unit_m, const char* unit) {
 // Row-major [fx 0 cx; 0 fy cy; 0 0 1]. The zeros are checked: a transposed or skewed matrix would
 // otherwise give a wrong curve without a word.
 Intrinsics from_matrix(Reader& reader, const char* key, bool column_major) {
-  const Json& value = reader.json[key];
+  const Value& value = *reader.json.find(key);
+  const auto& entries = value.elements;  // none where it is no array
   const bool nine_numbers =
-      value.is_array() && value.size() == 9 &&
-      std::all_of(value.begin(), value.end(), [](const Json& entry) { return entry.is_number(); });
+      entries.size() == 9 && std::all_of(entries.begin(), entries.end(),
+                                         [](const Value& entry) { return entry.is_number(); });
   if (!nine_numbers) {
     reader.fault(fmt::format("\"{}\": expected 9 numbers, got {}", key, shown(value)));
     return {};
   }
   std::array<double, 9> k{};
   for (std::size_t i = 0; i < 9; ++i) {
-    k[i] = value[column_major ? (i % 3) * 3 + i / 3 : i].get<double>();
+    k[i] = entries[column_major ? (i % 3) * 3 + i / 3 : i].number;
   }
   const double tolerance = 1e-6 * std::abs(k[0]);
   if (std::abs(k[1]) > tolerance || k[3] != 0 || k[6] != 0 || k[7] != 0 || k[8] != 1) {
@@ -138,8 +145,8 @@ CameraFile read_own(Reader& reader) {
 
 CameraFile read_bop(Reader& reader) {
   CameraFile camera;
-  if (reader.json.contains("width")) camera.width = side(reader, "width");
-  if (reader.json.contains("height")) camera.height = side(reader, "height");
+  if (reader.has("width")) camera.width = side(reader, "width");
+  if (reader.has("height")) camera.height = side(reader, "height");
   camera.intrinsics = from_matrix(reader, "cam_K", /*column_major=*/false);
   camera.depth_scale_m = depth_scale(reader, kMillimetre_m, "millimetres");
   return camera;
@@ -149,7 +156,7 @@ CameraFile read_open3d(Reader& reader) {
   CameraFile camera{side(reader, "width"), side(reader, "height"),
                     from_matrix(reader, "intrinsic_matrix", /*column_major=*/true),
                     kOpen3dDepthScale_m};
-  if (reader.json.contains("depth_scale")) {
+  if (reader.has("depth_scale")) {
     camera.depth_scale_m = depth_scale(reader, 1.0, "metres");
   }
   return camera;
@@ -160,9 +167,9 @@ CameraFile read_form(Reader& reader) {
     reader.fault("expected a JSON object, got " + shown(reader.json));
     return {};
   }
-  const bool own = reader.json.contains("fx") || reader.json.contains("fy");
-  const bool bop = reader.json.contains("cam_K");
-  const bool open3d = reader.json.contains("intrinsic_matrix");
+  const bool own = reader.has("fx") || reader.has("fy");
+  const bool bop = reader.has("cam_K");
+  const bool open3d = reader.has("intrinsic_matrix");
   if (int{own} + int{bop} + int{open3d} > 1) {
     reader.fault(
         "expected one of fx/fy/cx/cy, cam_K and intrinsic_matrix, got several, whose depth scales "
@@ -186,16 +193,18 @@ std::string syntax_fault(std::string_view text, std::size_t byte) {
 }  // namespace
 
 Result<CameraFile> parse_camera(std::string_view text, const std::string& who) {
-  Json json;
-  try {
-    json = Json::parse(text);
-  } catch (const Json::parse_error& failure) {
-    return Error{ErrorCode::kBadInput, who + ": " + syntax_fault(text, failure.byte)};
-  } catch (const Json::exception&) {  // a number beyond the range of double
+  const json::Parsed parsed = json::parse(text);
+  if (parsed.too_large) {
     return Error{ErrorCode::kBadInput, who + ": a number is too large; write it again"};
   }
+  if (!parsed.fine) {
+    return Error{ErrorCode::kBadInput, who + ": " + syntax_fault(text, parsed.fault_at)};
+  }
   Faults faults;
-  Reader reader{json, who, faults};
+  Reader reader{parsed.value, who, faults};
+  for (const std::string& key : parsed.twice) {
+    reader.fault(fmt::format("{} is given twice; keep one", json::escaped(key)));
+  }
   const CameraFile camera = read_form(reader);
   if (!faults.empty()) return faults.error();
   return camera;

@@ -1,18 +1,19 @@
 #include "weights/safetensors.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cstring>
 #include <limits>
-#include <nlohmann/json.hpp>
 #include <optional>
-#include <set>
+
+#include "json/parse.hpp"
 
 namespace flowdlo::weights {
 namespace {
 
-using nlohmann::json;
+using json::Value;
 
 constexpr std::size_t kLengthBytes = 8;
 constexpr std::size_t kLargestHeader = std::size_t{1} << 20U;  // ours has 12 kB
@@ -38,88 +39,80 @@ DType dtype_of(std::string_view name) {
 
 const char* format_name(DType dtype) { return dtype == DType::kF16 ? "F16" : "F32"; }
 
-/// The header as JSON, or nothing. Nesting is cut off while parsing, keys given twice are noted.
-std::optional<json> parse_header(std::string_view text, std::vector<std::string>& faults) {
-  bool deep = false;
-  std::set<std::string> keys;
-  std::set<std::string> twice;
-  const auto watch = [&](int depth, json::parse_event_t event, json& parsed) {
-    const bool opens =
-        event == json::parse_event_t::object_start || event == json::parse_event_t::array_start;
-    if (opens && depth >= kDeepest) deep = true;
-    if (event == json::parse_event_t::key && depth == 1) {
-      auto key = parsed.get<std::string>();
-      if (!keys.insert(key).second) twice.insert(std::move(key));
-    }
-    return !(opens && depth >= kDeepest);
-  };
-  json header = json::parse(text, watch, /*allow_exceptions=*/false);
-  for (const std::string& key : twice) {
+/// The header as JSON, or nothing. Keys given twice are noted.
+std::optional<Value> parse_header(std::string_view text, std::vector<std::string>& faults) {
+  json::Parsed header = json::parse(text);
+  for (const std::string& key : header.twice) {
     faults.push_back(tensor_fault(key, "expected once in the header, got it again"));
   }
-  if (deep) {
+  if (header.depth > kDeepest) {
     faults.push_back(fmt::format("header: expected at most {} levels of nesting, got more; {}",
                                  kDeepest, kRemedy));
     return std::nullopt;
   }
-  if (header.is_discarded() || !header.is_object()) {
+  if (!header.fine || !header.value.is_object()) {
     faults.push_back(
         fmt::format("header: expected a JSON object in UTF-8, got {} bytes that are "
                     "none; give a .safetensors file",
                     text.size()));
     return std::nullopt;
   }
-  return header;
+  return std::move(header.value);
 }
 
-void read_metadata(const json& entry, Safetensors& result, std::vector<std::string>& faults) {
+void read_metadata(const Value& entry, Safetensors& result, std::vector<std::string>& faults) {
   if (!entry.is_object()) {
     faults.push_back(fmt::format("header: expected __metadata__ to be an object, got {}; {}",
-                                 entry.type_name(), kRemedy));
+                                 json::name_of(entry.kind), kRemedy));
     return;
   }
-  for (const auto& [key, value] : entry.items()) {
+  for (const auto& [key, value] : entry.members) {
     if (value.is_string()) {
-      result.metadata[key] = value.get<std::string>();
+      result.metadata[key] = value.string;
     } else {
       faults.push_back(fmt::format("metadata {}: expected a string, got {}; {}", in_quotes(key),
-                                   value.type_name(), kRemedy));
+                                   json::name_of(value.kind), kRemedy));
     }
   }
 }
 
-std::optional<std::vector<std::int64_t>> shape_of(const json& entry) {
-  const auto found = entry.find("shape");
-  if (found == entry.end() || !found->is_array()) return std::nullopt;
+/// A whole number from 0 to `most`, which a double holds exactly: a file's size, or less.
+std::optional<std::uint64_t> whole_of(const Value& value, std::uint64_t most) {
+  const bool fits = value.is_number() && value.whole && value.number >= 0 &&
+                    value.number <= static_cast<double>(most);
+  return fits ? std::optional(static_cast<std::uint64_t>(value.number)) : std::nullopt;
+}
+
+std::optional<std::vector<std::int64_t>> shape_of(const Value& entry) {
+  const Value* const found = entry.find("shape");
+  if (found == nullptr || !found->is_array()) return std::nullopt;
   std::vector<std::int64_t> shape;
-  for (const json& extent : *found) {
-    constexpr auto kLargest = std::uint64_t{std::numeric_limits<std::int32_t>::max()};
-    if (!extent.is_number_unsigned() || extent.get<std::uint64_t>() > kLargest) return std::nullopt;
-    shape.push_back(extent.get<std::int64_t>());
+  for (const Value& extent : found->elements) {
+    const auto whole = whole_of(extent, std::numeric_limits<std::int32_t>::max());
+    if (!whole) return std::nullopt;
+    shape.push_back(static_cast<std::int64_t>(*whole));
   }
   return shape;
 }
 
-std::optional<Range> range_of(const json& entry, std::uint64_t available) {
-  const auto found = entry.find("data_offsets");
-  if (found == entry.end() || !found->is_array() || found->size() != 2) return std::nullopt;
-  const json& begin = (*found)[0];
-  const json& end = (*found)[1];
-  if (!begin.is_number_unsigned() || !end.is_number_unsigned()) return std::nullopt;
-  const Range range{begin.get<std::uint64_t>(), end.get<std::uint64_t>()};
-  if (range.begin > range.end || range.end > available) return std::nullopt;
-  return range;
+std::optional<Range> range_of(const Value& entry, std::uint64_t available) {
+  const Value* const found = entry.find("data_offsets");
+  if (found == nullptr || found->elements.size() != 2) return std::nullopt;
+  const auto begin = whole_of(found->elements[0], available);
+  const auto end = whole_of(found->elements[1], available);
+  if (!begin || !end || *begin > *end) return std::nullopt;
+  return Range{*begin, *end};
 }
 
 /// One tensor of the header; its bytes are left for the caller. Null range: a fault was noted.
-std::optional<Range> read_tensor(const json& entry, std::uint64_t available, StoredTensor& tensor,
+std::optional<Range> read_tensor(const Value& entry, std::uint64_t available, StoredTensor& tensor,
                                  std::vector<std::string>& faults) {
   if (!entry.is_object()) {
     faults.push_back(tensor_fault(tensor.name, "expected an object in the header"));
     return std::nullopt;
   }
-  const auto dtype = entry.find("dtype");
-  const bool named = dtype != entry.end() && dtype->is_string();
+  const Value* const dtype = entry.find("dtype");
+  const bool named = dtype != nullptr && dtype->is_string();
   const auto shape = shape_of(entry);
   const auto range = range_of(entry, available);
   if (!named) faults.push_back(tensor_fault(tensor.name, "expected a dtype that is a string"));
@@ -131,7 +124,7 @@ std::optional<Range> read_tensor(const json& entry, std::uint64_t available, Sto
         tensor.name, fmt::format("expected data_offsets [begin, end] within {} bytes", available)));
   }
   if (!named || !shape || !range) return std::nullopt;
-  const auto name = dtype->get<std::string>();
+  const std::string& name = dtype->string;
   tensor.dtype = dtype_of(name);
   tensor.dtype_name = tensor.dtype == DType::kOther ? in_quotes(name) : name_of(tensor.dtype);
   tensor.shape = *shape;
@@ -158,12 +151,12 @@ void check_ranges(std::vector<std::pair<Range, std::string>> ranges, std::uint64
   }
 }
 
-void read_tensors(const json& header, std::span<const std::uint8_t> data, Safetensors& result,
+void read_tensors(const Value& header, std::span<const std::uint8_t> data, Safetensors& result,
                   std::vector<std::string>& faults) {
   std::vector<std::pair<Range, std::string>> ranges;
   bool complete = true;
-  result.names.reserve(header.size());  // the tensors' names are views of these
-  for (const auto& [key, entry] : header.items()) {
+  result.names.reserve(header.members.size());  // the tensors' names are views of these
+  for (const auto& [key, entry] : header.members) {
     if (key == "__metadata__") continue;
     result.names.push_back(key);
     StoredTensor tensor;
@@ -182,17 +175,21 @@ void read_tensors(const json& header, std::span<const std::uint8_t> data, Safete
 
 std::string safetensors_header(const std::map<std::string, std::string>& metadata,
                                const std::vector<StoredTensor>& tensors) {
-  nlohmann::ordered_json header;
-  header["__metadata__"] = metadata;
+  std::string fields;
+  for (const auto& [key, value] : metadata) {
+    fields +=
+        fmt::format("{}{}:{}", fields.empty() ? "" : ",", json::escaped(key), json::escaped(value));
+  }
+  std::string text = "{\"__metadata__\":{" + fields + "}";
   std::size_t offset = 0;
   for (const StoredTensor& tensor : tensors) {
     const std::size_t end = offset + tensor.bytes.size();
-    header[std::string{tensor.name}] = {{"dtype", format_name(tensor.dtype)},
-                                        {"shape", tensor.shape},
-                                        {"data_offsets", {offset, end}}};
+    text += fmt::format(R"(,{}:{{"dtype":"{}","shape":[{}],"data_offsets":[{},{}]}})",
+                        json::escaped(tensor.name), format_name(tensor.dtype),
+                        fmt::join(tensor.shape, ","), offset, end);
     offset = end;
   }
-  std::string text = header.dump();
+  text += '}';
   text.resize((text.size() + kLengthBytes - 1) / kLengthBytes * kLengthBytes, ' ');
   const std::uint64_t length = text.size();
   std::string result(kLengthBytes, '\0');
@@ -216,13 +213,13 @@ Safetensors parse_safetensors(std::span<const std::uint8_t> bytes,
   const auto* text = reinterpret_cast<const char*>(bytes.data()) + kLengthBytes;
   const auto header = parse_header({text, length}, faults);
   if (!header) return result;
-  if (header->size() > kMostTensors) {
+  if (header->members.size() > kMostTensors) {
     faults.push_back(fmt::format("header: expected at most {} tensors, got {}; {}", kMostTensors,
-                                 header->size(), kRemedy));
+                                 header->members.size(), kRemedy));
     return result;
   }
-  const auto metadata = header->find("__metadata__");
-  if (metadata != header->end()) read_metadata(*metadata, result, faults);
+  const Value* const metadata = header->find("__metadata__");
+  if (metadata != nullptr) read_metadata(*metadata, result, faults);
   read_tensors(*header, bytes.subspan(kLengthBytes + length), result, faults);
   return result;
 }

@@ -148,5 +148,11 @@ TEST(CameraJson, WhatIsWrittenReadsBackExactly) {
   EXPECT_EQ(read->depth_scale_m, written.depth_scale_m);
 }
 
+TEST(CameraJson, AKeyGivenTwiceIsRefused) {  // which one counts would depend on the reader
+  EXPECT_THAT(fault_of(R"({"fx": 500, "width": 640, "height": 480, "fx": 601, "fy": 602,
+                           "cx": 320.5, "cy": 240.25, "depth_scale": 0.001})"),
+              HasSubstr("\"fx\" is given twice; keep one"));
+}
+
 }  // namespace
 }  // namespace flowdlo::frame
