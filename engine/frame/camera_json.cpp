@@ -6,8 +6,11 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <set>
+#include <vector>
 
 #include "frame/faults.hpp"
 #include "frame/limits.hpp"
@@ -174,6 +177,27 @@ CameraFile read_form(Reader& reader) {
   return read_own(reader);
 }
 
+/// Watches the parser for keys that stand twice in one object: of such a file some readers take the
+/// first value and some the last.
+class KeyCount {
+ public:
+  bool operator()(int /*depth*/, Json::parse_event_t event, Json& parsed) {
+    if (event == Json::parse_event_t::object_start) seen_.emplace_back();
+    if (event == Json::parse_event_t::object_end) seen_.pop_back();
+    if (event == Json::parse_event_t::key) {
+      const auto& key = parsed.get_ref<const std::string&>();
+      if (!seen_.back().insert(key).second) repeated_.insert(key);
+    }
+    return true;
+  }
+
+  [[nodiscard]] const std::set<std::string>& repeated() const { return repeated_; }
+
+ private:
+  std::vector<std::set<std::string>> seen_;  ///< of each object that is open
+  std::set<std::string> repeated_;
+};
+
 std::string syntax_fault(std::string_view text, std::size_t byte) {
   const auto before = text.substr(0, std::min(byte, text.size()));
   const auto line = 1 + std::count(before.begin(), before.end(), '\n');
@@ -187,8 +211,9 @@ std::string syntax_fault(std::string_view text, std::size_t byte) {
 
 Result<CameraFile> parse_camera(std::string_view text, const std::string& who) {
   Json json;
+  KeyCount keys;
   try {
-    json = Json::parse(text);
+    json = Json::parse(text, std::ref(keys));
   } catch (const Json::parse_error& failure) {
     return Error{ErrorCode::kBadInput, who + ": " + syntax_fault(text, failure.byte)};
   } catch (const Json::exception&) {  // a number beyond the range of double
@@ -196,6 +221,9 @@ Result<CameraFile> parse_camera(std::string_view text, const std::string& who) {
   }
   Faults faults;
   Reader reader{json, who, faults};
+  for (const auto& key : keys.repeated()) {
+    reader.fault(fmt::format("{} stands more than once; keep one", shown(key)));
+  }
   const CameraFile camera = read_form(reader);
   if (!faults.empty()) return faults.error();
   return camera;

@@ -106,7 +106,7 @@ std::vector<StoredTensor> stored_tensors(const fdw::Weights& root) {
   return stored;
 }
 
-Result<FdwFile> parsed(const FileBytes& bytes, const std::filesystem::path& file) {
+Result<FdwFile> parsed(const files::FileBytes& bytes, const std::filesystem::path& file) {
   const std::string envelope = envelope_fault(bytes.view());
   if (!envelope.empty()) return bad_weights(file, {envelope});
 

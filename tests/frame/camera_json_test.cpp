@@ -123,6 +123,22 @@ TEST(CameraJson, SidesMustBeWholeAndWithinTheLimit) {
   }
 }
 
+TEST(CameraJson, KeyThatStandsTwiceIsRefusedWhicheverValueIsRight) {
+  const std::string twice = R"({"width": 640, "height": 480, "fx": 601, "fy": 602, "cx": 320,
+                                "cy": 240, "depth_scale": 0.001, "fx": 601, "cx": 321})";
+  EXPECT_THAT(fault_of(twice), HasSubstr("\"fx\" stands more than once; keep one"));
+  EXPECT_THAT(fault_of(twice), HasSubstr("\"cx\" stands more than once"));
+  std::string nested = own("601");
+  nested.insert(1, R"("notes": {"by": 1, "by": 2}, )");
+  EXPECT_THAT(fault_of(nested), HasSubstr("\"by\" stands more than once"));
+}
+
+TEST(CameraJson, SameKeyInTwoObjectsIsNoRepetition) {
+  std::string text = own("601");
+  text.insert(1, R"("a": {"by": 1}, "b": [{"by": 2}, {"by": 3}], )");
+  EXPECT_TRUE(parse_camera(text, "camera.json"));
+}
+
 TEST(CameraJson, EveryMissingFieldIsListed) {
   const auto fault = fault_of("{}");
   for (const char* field : {"width", "height", "fx", "fy", "cx", "cy", "depth_scale"}) {

@@ -15,6 +15,8 @@
 #include <utility>
 #include <vector>
 
+#include "files/regular_size.hpp"
+
 namespace flowdlo::recording {
 namespace {
 
@@ -263,10 +265,10 @@ class Walker {
 }  // namespace
 
 Result<void> check_bag_layout(const std::filesystem::path& file) {
-  std::error_code failure;
-  const auto size = std::filesystem::file_size(file, failure);
+  const auto size = files::regular_size(file);  // a pipe would be waited for
+  if (!size) return size.error();
   std::ifstream stream(file, std::ios::binary);
-  if (failure || !stream) {
+  if (!stream) {
     return Error{ErrorCode::kIo, file.string() + ": cannot be read; check path and permissions"};
   }
   std::string line(std::strlen(kVersionLine), '\0');
@@ -277,7 +279,7 @@ Result<void> check_bag_layout(const std::filesystem::path& file) {
                              "an older version, make one with `rosbag fix`",
                              file.string())};
   }
-  const Fault fault = Walker(stream, size).walk();
+  const Fault fault = Walker(stream, *size).walk();
   if (fault.empty()) return {};
   return Error{ErrorCode::kBadInput,
                fmt::format("{}: expected a whole bag, but {}; `rosbag reindex` may save it",
