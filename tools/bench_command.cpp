@@ -12,12 +12,14 @@
 #include <system_error>
 
 #include "bench_report.hpp"
+#include "durability_choice.hpp"
+#include "files/whole_file.hpp"
 #include "flowdlo/estimator.hpp"
 #include "flowdlo/frame_folder.hpp"
-#include "frame/staged_files.hpp"
 #include "model_options.hpp"
 #include "progress_bar.hpp"
 #include "resident_memory.hpp"
+#include "terminal.hpp"
 #include "threads/count.hpp"
 
 namespace flowdlo::tools {
@@ -91,14 +93,8 @@ Result<BenchReport> measure(const BenchOptions& options, const FrameFolder& fold
   return report;
 }
 
-Result<void> save(const fs::path& file, const std::string& text) {
-  frame::StagedFiles staged;
-  if (auto done = staged.add(file, text); !done) return done;
-  return staged.commit();
-}
-
 ExitCode complain(const Error& error) {
-  fmt::print(stderr, "{}\n", error.message);
+  tell_error("{}\n", error.message);
   const bool usage = error.code == ErrorCode::kNoDevice || error.code == ErrorCode::kBadWeights;
   return usage ? ExitCode::kUsage : ExitCode::kFailed;
 }
@@ -106,7 +102,7 @@ ExitCode complain(const Error& error) {
 ExitCode run(const BenchOptions& options) {
   const auto path = options.frame.empty() ? shipped_frame() : Result<fs::path>(options.frame);
   if (!path) {
-    fmt::print(stderr, "{}\n", path.error().message);
+    tell_error("{}\n", path.error().message);
     return ExitCode::kUsage;
   }
   const auto folder = load_frame_folder(*path);
@@ -114,11 +110,10 @@ ExitCode run(const BenchOptions& options) {
   const auto report = measure(options, *folder);
   if (!report) return complain(report.error());
   if (!options.json.empty()) {
-    if (const auto saved = save(options.json, bench_json(*report)); !saved) {
-      return complain(saved.error());
-    }
+    const auto saved = files::write_file(options.json, bench_json(*report), chosen_durability());
+    if (!saved) return complain(saved.error());
   }
-  if (!options.quiet) fmt::print("{}", bench_table(*report));
+  if (!options.quiet) tell("{}", bench_table(*report));
   return ExitCode::kDone;
 }
 

@@ -8,8 +8,9 @@
 #include <string>
 #include <vector>
 
+#include "durability_choice.hpp"
+#include "files/whole_file.hpp"
 #include "frame/png.hpp"
-#include "frame/staged_files.hpp"
 
 namespace flowdlo::tools {
 namespace {
@@ -134,9 +135,7 @@ Result<void> save_contact_sheet(const std::filesystem::path& file,
   }
   const auto bytes = frame::encode_png(sheet);
   if (!bytes) return bytes.error();
-  frame::StagedFiles staged;
-  if (auto added = staged.add(file, *bytes); !added) return added;
-  return staged.commit();
+  return files::write_file(file, {*bytes}, chosen_durability());
 }
 
 }  // namespace flowdlo::tools

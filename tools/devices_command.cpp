@@ -7,7 +7,9 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "files/shown_name.hpp"
 #include "flowdlo/devices.hpp"
+#include "terminal.hpp"
 #include "wide_lavapipe.hpp"
 
 namespace flowdlo::tools {
@@ -38,9 +40,9 @@ std::string verdict(const DeviceReport& device) {
 }
 
 void print_device(const DeviceReport& device) {
-  fmt::print("{}\n", device.name);
+  tell("{}\n", files::shown(device.name));
   const auto row = [](const char* field, const std::string& value) {
-    fmt::print("  {:<10} {}\n", field, value);
+    tell("  {:<10} {}\n", field, value);
   };
   row("kind", name_of(device.kind));
   row("driver", device.driver);
@@ -49,15 +51,15 @@ void print_device(const DeviceReport& device) {
   row("subgroup", std::to_string(device.subgroup_size));
   row("lacks", device.lacks.empty() ? "nothing" : fmt::format("{}", fmt::join(device.lacks, ", ")));
   row("self-test", verdict(device));
-  fmt::print("\n");
+  tell("\n");
 }
 
 void print_table(const DeviceSurvey& survey) {
-  fmt::print("Vulkan loader: {}\n\n", survey.loader);
+  tell("Vulkan loader: {}\n\n", survey.loader);
   for (const auto& device : survey.vulkan) print_device(device);
-  if (!survey.advice.empty()) fmt::print("No Vulkan device to use.\n  {}\n\n", survey.advice);
-  fmt::print("cpu\n  {:<10} built in, always there\n\n", "kind");
-  fmt::print("--device auto takes: {}\n", survey.auto_choice);
+  if (!survey.advice.empty()) tell("No Vulkan device to use.\n  {}\n\n", survey.advice);
+  tell("cpu\n  {:<10} built in, always there\n\n", "kind");
+  tell("--device auto takes: {}\n", survey.auto_choice);
 }
 
 void print_json(const DeviceSurvey& survey) {
@@ -78,7 +80,7 @@ void print_json(const DeviceSurvey& survey) {
                      {"vulkan", devices},
                      {"advice", survey.advice},
                      {"auto_choice", survey.auto_choice}};
-  fmt::print("{}\n", json.dump(2, ' ', false, Json::error_handler_t::replace));
+  tell("{}\n", json.dump(2, ' ', false, Json::error_handler_t::replace));
 }
 
 }  // namespace

@@ -10,6 +10,8 @@
 #include <system_error>
 #include <vector>
 
+#include "durability_choice.hpp"
+#include "files/shown_name.hpp"
 #include "flowdlo/estimator.hpp"
 #include "flowdlo/frame_folder.hpp"
 #include "frame_list.hpp"
@@ -17,6 +19,7 @@
 #include "model_options.hpp"
 #include "progress_bar.hpp"
 #include "recording_arguments.hpp"
+#include "terminal.hpp"
 
 namespace flowdlo::tools {
 namespace {
@@ -32,14 +35,14 @@ struct EstimateOptions {
   bool quiet = false;
 };
 
-void complain(const Error& error) { fmt::print(stderr, "{}\n", error.message); }
+void complain(const Error& error) { tell_error("{}\n", error.message); }
 
 Result<void> make_out(const fs::path& out) {
   std::error_code failure;
   fs::create_directories(out, failure);
   if (failure || !fs::is_directory(out, failure)) {
     return Error{ErrorCode::kIo, fmt::format("--out {}: cannot be made: {}; choose another folder",
-                                             out.string(), failure.message())};
+                                             files::shown(out), failure.message())};
   }
   return {};
 }
@@ -55,9 +58,10 @@ Provenance provenance_of(const EstimateOptions& options, const FrameEntry& entry
 }
 
 std::string summary(const Estimate& estimate, const FrameEntry& entry, const fs::path& folder) {
-  return fmt::format("{}: {}, confidence {:.2f}, mask agreement {:.2f}, {:.0f} ms, {}", entry.name,
-                     name_of(estimate.source), estimate.confidence, estimate.mask_agreement,
-                     estimate.timings.total_ms, (folder / "overlay.png").string());
+  return fmt::format("{}: {}, confidence {:.2f}, mask agreement {:.2f}, {:.0f} ms, {}",
+                     files::shown(entry.name), name_of(estimate.source), estimate.confidence,
+                     estimate.mask_agreement, estimate.timings.total_ms,
+                     files::shown(folder / "overlay.png"));
 }
 
 /// What there is to say about one frame, or why there is no estimate on disk.
@@ -65,8 +69,10 @@ Result<std::string> run_frame(const EstimateOptions& options, const FrameEntry& 
                               Estimator& estimator) {
   const fs::path folder = options.out / entry.name;
   const auto provenance = provenance_of(options, entry, estimator);
+  const auto durability = chosen_durability();
+  if (auto forgotten = forget_results(folder, durability); !forgotten) return forgotten.error();
   const auto fail = [&](const Error& error) -> Error {
-    const auto written = write_failure(folder, error, provenance);
+    const auto written = write_failure(folder, error, provenance, durability);
     if (written) return error;
     return {error.code, error.message + "\n" + written.error().message};
   };
@@ -77,7 +83,7 @@ Result<std::string> run_frame(const EstimateOptions& options, const FrameEntry& 
                                         : estimator.estimate(loaded->frame());
   if (!estimate) return fail(estimate.error());
   const auto written = write_estimate(folder, loaded->frame(), *estimate,
-                                      options.tensors ? &tensors : nullptr, provenance);
+                                      options.tensors ? &tensors : nullptr, provenance, durability);
   if (!written) return fail(written.error());
   return summary(*estimate, entry, folder);
 }
@@ -91,10 +97,10 @@ ExitCode run_frames(const EstimateOptions& options, const std::vector<FrameEntry
     progress.clear();
     if (!outcome) {
       exit_code = ExitCode::kFailed;
-      fmt::print(stderr, "{}: no estimate ({}): {}\n", entry.name, name_of(outcome.error().code),
-                 outcome.error().message);
+      tell_error("{}: no estimate ({}): {}\n", files::shown(entry.name),
+                 name_of(outcome.error().code), outcome.error().message);
     } else if (!options.quiet) {
-      fmt::print("{}\n", *outcome);
+      tell("{}\n", *outcome);
       std::fflush(stdout);
     }
     progress.advance();

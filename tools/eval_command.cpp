@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "build_sum.hpp"
+#include "durability_choice.hpp"
 #include "estimator/weights_location.hpp"
 #include "eval/contenders.hpp"
 #include "eval/error_overlay.hpp"
@@ -24,14 +25,16 @@
 #include "eval/sweep.hpp"
 #include "eval/tables.hpp"
 #include "eval_outputs.hpp"
+#include "files/folder.hpp"
+#include "files/staged_files.hpp"
 #include "flowdlo/frame_folder.hpp"
 #include "flowdlo/weights.hpp"
-#include "frame/staged_files.hpp"
 #include "frame_list.hpp"
 #include "model_options.hpp"
 #include "progress_bar.hpp"
 #include "recorded_frame.hpp"
 #include "recording_arguments.hpp"
+#include "terminal.hpp"
 #include "threads/count.hpp"
 
 namespace flowdlo::tools {
@@ -62,7 +65,7 @@ struct MergeOptions {
 };
 
 ExitCode complain(const Error& error, ExitCode exit_code) {
-  fmt::print(stderr, "{}\n", error.message);
+  tell_error("{}\n", error.message);
   return exit_code;
 }
 
@@ -128,8 +131,8 @@ Result<std::vector<eval::Evaluator>> create_evaluators(const EvalOptions& option
 Result<void> run_rows(const EvalOptions& options, const std::vector<FrameEntry>& frames,
                       std::vector<eval::Evaluator>& evaluators, eval::RowFile& file) {
   if (file.kept() > 0 && !options.quiet) {
-    fmt::print(stderr, "{}: keeps {} rows of an earlier run, {} to go\n", file.path().string(),
-               file.kept(), file.lacking().size());
+    tell_error("{}: keeps {} rows of an earlier run, {} to go\n", file.path().string(), file.kept(),
+               file.lacking().size());
   }
   std::vector<eval::Worker> workers;
   for (eval::Evaluator& evaluator : evaluators) {
@@ -149,13 +152,24 @@ Result<void> run_rows(const EvalOptions& options, const std::vector<FrameEntry>&
   });
 }
 
+/// No table of an earlier run stands beside a failure of this one.
+Result<void> forget_report(const fs::path& out) {
+  const auto folder = files::Folder::open(out);
+  if (!folder) return folder.error();
+  for (const char* name : {"report.html", "results.md", "tables.md", "rows.csv", "timings.csv",
+                           "methods.csv", "error_bars.png", "error_curve.png"}) {
+    if (auto done = folder->remove(name); !done) return done;
+  }
+  return {};
+}
+
 Result<void> save(const fs::path& out, const std::string& tables,
                   const std::vector<eval::Trial>& trials) {
   const auto bars = eval::error_bars_png(trials);
   if (!bars) return bars.error();
   const auto curve = eval::error_curve_png(trials);
   if (!curve) return curve.error();
-  frame::StagedFiles staged;
+  files::StagedFiles staged(chosen_durability());
   if (auto done = staged.add(out / "tables.md", tables); !done) return done;
   if (auto done = staged.add(out / "rows.csv", eval::rows_csv(trials)); !done) return done;
   if (auto done = staged.add(out / "timings.csv", eval::timings_csv(trials)); !done) return done;
@@ -177,7 +191,7 @@ Result<void> draw_worst(const EvalOptions& options, const std::vector<FrameEntry
   order.resize(std::min(order.size(), static_cast<std::size_t>(options.worst)));
   std::error_code failure;
   fs::create_directories(options.out / "worst", failure);
-  frame::StagedFiles staged;
+  files::StagedFiles staged(chosen_durability());
   for (const std::size_t i : order) {
     const auto folder = load_frame(frames[i]);
     if (!folder) return folder.error();
@@ -203,11 +217,11 @@ ExitCode run_sweep(const EvalOptions& options, const std::vector<FrameEntry>& fr
   const std::string table = eval::sweep_markdown(*settings);
   std::error_code failure;
   fs::create_directories(options.out, failure);
-  frame::StagedFiles staged;
+  files::StagedFiles staged(chosen_durability());
   auto saved = staged.add(options.out / "sweep.md", table);
   if (saved) saved = staged.commit();
   if (!saved) return complain(saved.error(), ExitCode::kFailed);
-  if (!options.quiet) fmt::print("{}", table);
+  if (!options.quiet) tell("{}", table);
   return ExitCode::kDone;
 }
 
@@ -222,7 +236,7 @@ ExitCode report(const fs::path& out, const fs::path& results, const eval::Merged
   if (const auto saved = save_chapter(out, results, merged); !saved) {
     return complain(saved.error(), ExitCode::kFailed);
   }
-  if (!quiet) fmt::print("{}\n{}", tables, eval::timing_sentence(merged.trials));
+  if (!quiet) tell("{}\n{}", tables, eval::timing_sentence(merged.trials));
   return ExitCode::kDone;
 }
 
@@ -230,8 +244,8 @@ ExitCode finish(const EvalOptions& options, const std::vector<FrameEntry>& frame
                 const eval::RowFile& file, const eval::Shard& shard) {
   if (!shard.whole()) {
     if (!options.quiet) {
-      fmt::print("{}: every row of shard {} is there; flowdlo eval merge makes the tables\n",
-                 file.path().string(), options.shard);
+      tell("{}: every row of shard {} is there; flowdlo eval merge makes the tables\n",
+           file.path().string(), options.shard);
     }
     return ExitCode::kDone;
   }
@@ -263,6 +277,7 @@ ExitCode run(const EvalOptions& options) {
   if (const auto made = make_out(options.out); !made) return complain(made.error());
   auto file = eval::RowFile::open(options.out, *info);
   if (!file) return complain(file.error());
+  if (const auto done = forget_report(options.out); !done) return complain(done.error());
   if (const auto ran = run_rows(options, *frames, *evaluators, *file); !ran) {
     return complain(ran.error());
   }
@@ -273,6 +288,7 @@ ExitCode run_merge(const MergeOptions& options) {
   const auto merged = eval::merge_rows(options.sources);
   if (!merged) return complain(merged.error());
   if (const auto made = make_out(options.out); !made) return complain(made.error());
+  if (const auto done = forget_report(options.out); !done) return complain(done.error());
   return report(options.out, options.results, *merged, options.quiet);
 }
 

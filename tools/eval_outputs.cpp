@@ -5,10 +5,12 @@
 #include <CLI/CLI.hpp>
 #include <system_error>
 
+#include "durability_choice.hpp"
 #include "eval/figures.hpp"
 #include "eval/method_rows.hpp"
 #include "eval/results.hpp"
-#include "frame/staged_files.hpp"
+#include "files/staged_files.hpp"
+#include "files/whole_file.hpp"
 #include "report/report.hpp"
 
 namespace flowdlo::tools {
@@ -53,7 +55,7 @@ Result<void> save_chapter(const fs::path& out, const fs::path& results,
     return Error{ErrorCode::kIo, fmt::format("{}: cannot be made: {}; choose another folder",
                                              (out / "figures").string(), failure.message())};
   }
-  frame::StagedFiles staged;
+  files::StagedFiles staged(chosen_durability());
   for (const eval::Figure& figure : *figures) {
     if (auto done = staged.add(out / "figures" / (figure.name + ".png"), figure.png); !done) {
       return done;
@@ -65,10 +67,8 @@ Result<void> save_chapter(const fs::path& out, const fs::path& results,
   const std::string html = report::report_html(merged.trials, page, *figures);
   if (auto done = staged.add(out / "report.html", html); !done) return done;
   if (auto done = staged.add(out / "results.md", page); !done) return done;
-  if (!results.empty()) {
-    if (auto done = staged.add(results, page); !done) return done;
-  }
-  return staged.commit();
+  if (auto done = staged.commit(); !done || results.empty()) return done;
+  return files::write_file(results, page, chosen_durability());
 }
 
 }  // namespace flowdlo::tools

@@ -6,6 +6,8 @@
 #include <map>
 #include <system_error>
 
+#include "files/commit_record.hpp"
+#include "files/shown_name.hpp"
 #include "frame/frame_name.hpp"
 
 namespace flowdlo::tools {
@@ -13,9 +15,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
+// Also where a change was cut off: then the camera stands in its record.
 bool has_camera(const fs::path& folder) {
   std::error_code ignored;
-  return fs::exists(folder / "camera.json", ignored);
+  return fs::exists(folder / "camera.json", ignored) ||
+         fs::exists(folder / files::kRecordName, ignored);
 }
 
 // The frames of a data set, sorted; empty when `folder` is none.
@@ -49,7 +53,7 @@ std::string repeated_names(const std::vector<FrameEntry>& frames) {
     faults += fmt::format(
         "estimate: two frames are named \"{}\" and would share an output folder: {} and {}; run "
         "them with different --out",
-        entry.name, first->second.string(), entry.folder.string());
+        files::shown(entry.name), files::shown(first->second), files::shown(entry.folder));
   }
   return faults;
 }
@@ -74,7 +78,7 @@ Result<std::vector<FrameEntry>> list_frames(const std::vector<fs::path>& argumen
     if (entry.name.empty() || entry.name == "..") {
       return Error{ErrorCode::kBadInput, fmt::format("estimate: \"{}\" has no name; give the path "
                                                      "of a frame folder",
-                                                     entry.folder.string())};
+                                                     files::shown(entry.folder))};
     }
   }
   auto faults = repeated_names(frames);

@@ -1,11 +1,12 @@
 #include "frame_output.hpp"
 
+#include <string>
 #include <system_error>
 #include <vector>
 
+#include "files/folder_update.hpp"
 #include "frame/centerline_csv.hpp"
 #include "frame/png.hpp"
-#include "frame/staged_files.hpp"
 #include "overlay.hpp"
 #include "tensor_files.hpp"
 
@@ -14,64 +15,61 @@ namespace {
 
 namespace fs = std::filesystem;
 
-Result<void> make_folder(const fs::path& folder) {
-  std::error_code failure;
-  fs::create_directories(folder, failure);
-  if (!failure) return {};
-  return Error{ErrorCode::kIo, folder.string() + ": cannot be made: " + failure.message()};
-}
+constexpr const char* kKeyFile = "estimate.json";  // while it is missing, nothing is to be read
 
-// estimate.json goes first and comes back last: while it is missing, the folder is not to be read.
-Result<void> remove_earlier_run(const fs::path& folder) {
-  std::vector<std::string> names = {"estimate.json", "centerline.csv", "overlay.png"};
+std::vector<std::string> other_names() {
+  std::vector<std::string> names = {"centerline.csv", "overlay.png"};
   names.insert(names.end(), kTensorFileNames.begin(), kTensorFileNames.end());
-  for (const auto& name : names) {
-    std::error_code failure;
-    fs::remove(folder / name, failure);
-    if (failure) {
-      return Error{ErrorCode::kIo,
-                   (folder / name).string() + ": cannot be removed: " + failure.message()};
-    }
-  }
-  return {};
+  return names;
 }
 
-Result<void> stage(frame::StagedFiles& staged, const fs::path& folder, const Frame& frame,
-                   const Estimate& estimate, const Tensors* tensors, const Provenance& provenance) {
-  auto done = staged.add(folder / "centerline.csv", frame::format_centerline(estimate.nodes));
+Result<void> put_all(files::FolderUpdate& update, const Frame& frame, const Estimate& estimate,
+                     const Tensors* tensors, const Provenance& provenance) {
+  auto done = update.put("centerline.csv", frame::format_centerline(estimate.nodes));
   if (!done) return done;
   const auto picture = frame::encode_png(draw_overlay(frame, estimate, provenance.device));
   if (!picture) return picture.error();
-  if (done = staged.add(folder / "overlay.png", *picture); !done) return done;
+  if (done = update.put("overlay.png", *picture); !done) return done;
   if (tensors != nullptr) {
     const auto files = tensor_files(*tensors);
     if (!files) return files.error();
     for (const auto& [name, bytes] : *files) {
-      if (done = staged.add(folder / name, bytes); !done) return done;
+      if (done = update.put(name, bytes); !done) return done;
     }
   }
-  return staged.add(folder / "estimate.json", estimate_json(estimate, provenance));
+  return update.put(kKeyFile, estimate_json(estimate, provenance));
 }
 
 }  // namespace
 
-Result<void> write_estimate(const fs::path& folder, const Frame& frame, const Estimate& estimate,
-                            const Tensors* tensors, const Provenance& provenance) {
-  if (auto done = make_folder(folder); !done) return done;
-  frame::StagedFiles staged;
-  if (auto done = stage(staged, folder, frame, estimate, tensors, provenance); !done) return done;
-  if (auto done = remove_earlier_run(folder); !done) return done;
-  return staged.commit();
+Result<void> forget_results(const fs::path& folder, Durability durability,
+                            const files::SystemCalls& calls) {
+  std::error_code failure;
+  if (fs::symlink_status(folder, failure).type() == fs::file_type::not_found) return {};
+  auto update = files::FolderUpdate::begin(folder, kKeyFile, durability, calls);
+  if (!update) return update.error();
+  update->remove(kKeyFile);
+  for (const auto& name : other_names()) update->remove(name);
+  return update->commit();
 }
 
-Result<void> write_failure(const fs::path& folder, const Error& error,
-                           const Provenance& provenance) {
-  if (auto done = make_folder(folder); !done) return done;
-  frame::StagedFiles staged;
-  auto done = staged.add(folder / "estimate.json", failure_json(error, provenance));
-  if (!done) return done;
-  if (done = remove_earlier_run(folder); !done) return done;
-  return staged.commit();
+Result<void> write_estimate(const fs::path& folder, const Frame& frame, const Estimate& estimate,
+                            const Tensors* tensors, const Provenance& provenance,
+                            Durability durability, const files::SystemCalls& calls) {
+  if (auto done = forget_results(folder, durability, calls); !done) return done;
+  auto update = files::FolderUpdate::begin(folder, kKeyFile, durability, calls);
+  if (!update) return update.error();
+  auto done = put_all(*update, frame, estimate, tensors, provenance);
+  return done ? update->commit() : done;
+}
+
+Result<void> write_failure(const fs::path& folder, const Error& error, const Provenance& provenance,
+                           Durability durability, const files::SystemCalls& calls) {
+  if (auto done = forget_results(folder, durability, calls); !done) return done;
+  auto update = files::FolderUpdate::begin(folder, kKeyFile, durability, calls);
+  if (!update) return update.error();
+  auto done = update->put(kKeyFile, failure_json(error, provenance));
+  return done ? update->commit() : done;
 }
 
 }  // namespace flowdlo::tools

@@ -5,21 +5,34 @@
 #include <string>
 
 #include "estimate_json.hpp"
+#include "files/system_calls.hpp"
+#include "flowdlo/durability.hpp"
 #include "flowdlo/estimate.hpp"
 #include "flowdlo/frame.hpp"
 #include "flowdlo/result.hpp"
 
 namespace flowdlo::tools {
 
+/// Removes what an earlier run wrote for a frame, estimate.json first: whatever happens next, no
+/// result of it stands beside a failure. A folder that is not there is left so. Fails with kIo.
+[[nodiscard]] Result<void> forget_results(const std::filesystem::path& folder,
+                                          Durability durability = Durability::kSynced,
+                                          const files::SystemCalls& calls = files::kernel());
+
 /// Writes centerline.csv, overlay.png, the .npy files when there are `tensors`, and estimate.json
-/// last; what an earlier run left and this one does not write is removed. Fails with kIo.
+/// last; what an earlier run left is removed before. Fails with kIo: then there is no
+/// estimate.json.
 [[nodiscard]] Result<void> write_estimate(const std::filesystem::path& folder, const Frame& frame,
                                           const Estimate& estimate, const Tensors* tensors,
-                                          const Provenance& provenance);
+                                          const Provenance& provenance,
+                                          Durability durability = Durability::kSynced,
+                                          const files::SystemCalls& calls = files::kernel());
 
 /// Writes estimate.json with the error, and removes everything else of an earlier run, so that no
-/// curve stands beside a failed status. Fails with kIo.
+/// curve stands beside a failed status. Fails with kIo: then there is no estimate.json.
 [[nodiscard]] Result<void> write_failure(const std::filesystem::path& folder, const Error& error,
-                                         const Provenance& provenance);
+                                         const Provenance& provenance,
+                                         Durability durability = Durability::kSynced,
+                                         const files::SystemCalls& calls = files::kernel());
 
 }  // namespace flowdlo::tools

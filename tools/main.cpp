@@ -1,9 +1,8 @@
 // flowdlo: the command line.
-#include <fmt/format.h>
-
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <exception>
+#include <sstream>
 
 #include "bench_command.hpp"
 #include "devices_command.hpp"
@@ -12,10 +11,23 @@
 #include "exit_code.hpp"
 #include "flowdlo/version.hpp"
 #include "synth_command.hpp"
+#include "terminal.hpp"
 #include "weights_command.hpp"
 
-int main(int argc, char** argv) {
-  using namespace flowdlo::tools;
+namespace flowdlo::tools {
+namespace {
+
+/// What CLI11 has to say: help, the version, or what is wrong with the arguments.
+int explained(const CLI::App& app, const CLI::ParseError& end) {
+  std::ostringstream out;
+  std::ostringstream err;
+  const int code = app.exit(end, out, err);
+  say(stdout, out.str());
+  say(stderr, err.str());
+  return code == 0 ? 0 : static_cast<int>(ExitCode::kUsage);
+}
+
+int run(int argc, char** argv) {
   CLI::App app{"The complete ordered 3D centerline of a rope from one RGB-D frame", "flowdlo"};
   app.set_version_flag("--version", "flowdlo " FLOWDLO_VERSION);
   app.require_subcommand(1);
@@ -30,10 +42,18 @@ int main(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& end) {  // --help and --version come this way as well
-    return app.exit(end) == 0 ? 0 : static_cast<int>(ExitCode::kUsage);
+    return explained(app, end);
   } catch (const std::exception& failure) {
-    fmt::print(stderr, "flowdlo: {}\n", failure.what());
+    tell_error("flowdlo: {}\n", failure.what());
     return static_cast<int>(ExitCode::kFailed);
   }
   return static_cast<int>(exit_code);
+}
+
+}  // namespace
+}  // namespace flowdlo::tools
+
+int main(int argc, char** argv) {
+  using namespace flowdlo::tools;
+  return finished("flowdlo", run(argc, argv));
 }

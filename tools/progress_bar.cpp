@@ -25,15 +25,16 @@ void ProgressBar::advance() {
   if (!enabled_ || elapsed.count() < kSilent_ms || total_ < 1) return;
   const int filled = kWidth * done_ / total_;
   const double left_s = elapsed.count() / 1000.0 / done_ * (total_ - done_);
-  fmt::print(stderr, "\r\x1b[K{} [{:#<{}}{:.<{}}] {}/{}, {:.0f} s left", label_, "", filled, "",
-             kWidth - filled, done_, total_, left_s);
+  const auto bar = fmt::format("\r\x1b[K{} [{:#<{}}{:.<{}}] {}/{}, {:.0f} s left", label_, "",
+                               filled, "", kWidth - filled, done_, total_, left_s);
+  (void)std::fputs(bar.c_str(), stderr);
   std::fflush(stderr);
   drawn_ = true;
 }
 
 void ProgressBar::clear() {
   if (!drawn_) return;
-  fmt::print(stderr, "\r\x1b[K");
+  (void)std::fputs("\r\x1b[K", stderr);
   std::fflush(stderr);
   drawn_ = false;
 }

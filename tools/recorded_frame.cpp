@@ -6,6 +6,8 @@
 #include <cmath>
 #include <system_error>
 
+#include "durability_choice.hpp"
+
 namespace flowdlo::tools {
 namespace {
 
@@ -50,7 +52,9 @@ Result<FrameFolder> keep_recorded_frame(const fs::path& out, const FrameEntry& e
   Frame frame = recorded->frame();
   frame.depth_m = depth_m;
   if (const auto valid = validate(frame); !valid) return recorded;  // its row will say so
-  if (auto saved = save_frame_folder(folder, frame, scale_of(depth_m)); !saved) {
+  if (auto saved =
+          save_frame_folder(folder, frame, scale_of(depth_m), nullptr, chosen_durability());
+      !saved) {
     return saved.error();
   }
   return recorded;

@@ -9,6 +9,7 @@
 
 #include "progress_bar.hpp"
 #include "recording/recording.hpp"
+#include "terminal.hpp"
 
 namespace flowdlo::tools {
 namespace {
@@ -100,7 +101,7 @@ OpenRecording recording_opener(const RecordingArguments& arguments, bool quiet) 
     bar.reset();
     if (!opened) return opened.error();
     const auto recording = *opened;
-    if (!quiet) fmt::print(stderr, "{}\n", recording->summary());
+    if (!quiet) tell_error("{}\n", recording->summary());
     std::vector<FrameEntry> frames;
     for (std::size_t i = 0; i < recording->size(); ++i) {
       frames.push_back({file, recording->name(i), [recording, i] { return recording->load(i); }});

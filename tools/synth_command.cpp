@@ -16,6 +16,7 @@
 #include "progress_bar.hpp"
 #include "synth/synthetic_frame.hpp"
 #include "synth_folder.hpp"
+#include "terminal.hpp"
 #include "threads/team.hpp"
 
 namespace flowdlo::tools {
@@ -180,10 +181,10 @@ Result<std::string> run_jobs(const SynthOptions& options) {
 ExitCode run(const SynthOptions& options) {
   const auto said = run_jobs(options);
   if (!said) {
-    fmt::print(stderr, "{}\n", said.error().message);
+    tell_error("{}\n", said.error().message);
     return said.error().code == ErrorCode::kBadInput ? ExitCode::kUsage : ExitCode::kFailed;
   }
-  if (!options.quiet) fmt::print("{}", *said);
+  if (!options.quiet) tell("{}", *said);
   return ExitCode::kDone;
 }
 

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <string>
 
+#include "files/descriptor.hpp"
 #include "flowdlo/result.hpp"
 #include "synth/synthetic_frame.hpp"
 
@@ -29,10 +30,11 @@ class SynthFolder {
   ~SynthFolder();  ///< removes the folder of unfinished frames
 
  private:
-  SynthFolder(std::filesystem::path out, std::filesystem::path unfinished);
+  SynthFolder(std::filesystem::path out, std::filesystem::path unfinished, files::Descriptor lock);
 
   std::filesystem::path out_;
   std::filesystem::path unfinished_;
+  files::Descriptor lock_;  ///< on it: says that this run lives
 };
 
 }  // namespace flowdlo::tools

@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "synth_command.hpp"
+#include "terminal.hpp"
 
 namespace flowdlo::tools {
 
@@ -12,10 +13,10 @@ void add_synth_command(CLI::App& app, ExitCode& exit_code) {
   auto* command = app.add_subcommand("synth", "Synthetic frames with truth (not in this build)");
   command->allow_extras();
   command->callback([&exit_code] {
-    fmt::print(stderr,
-               "synth: not part of this flowdlo: {}; install libembree-dev, then configure "
-               "and build again\n",
-               FLOWDLO_SYNTH_LACKS);
+    tell_error(
+        "synth: not part of this flowdlo: {}; install libembree-dev, then configure "
+        "and build again\n",
+        FLOWDLO_SYNTH_LACKS);
     exit_code = ExitCode::kFailed;
   });
 }

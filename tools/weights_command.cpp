@@ -7,7 +7,9 @@
 #include <filesystem>
 #include <memory>
 
+#include "files/shown_name.hpp"
 #include "flowdlo/weights.hpp"
+#include "terminal.hpp"
 
 namespace flowdlo::tools {
 namespace {
@@ -20,24 +22,25 @@ struct Files {
 };
 
 ExitCode report(const Error& error) {
-  fmt::print(stderr, "{}\n", error.message);
+  tell_error("{}\n", error.message);
   return ExitCode::kFailed;
 }
 
 ExitCode print_info(const std::filesystem::path& file) {
   const auto info = inspect_weights(file);
   if (!info) return report(info.error());
-  for (const auto& [field, value] : info->metadata) fmt::print("{:<24} {}\n", field, value);
-  fmt::print("{:<24} {}\n{:<24} {}\n\n", "parameters", info->parameters, "sha256", info->sha256);
+  for (const auto& [field, value] : info->metadata) tell("{:<24} {}\n", field, value);
+  tell("{:<24} {}\n{:<24} {}\n\n", "parameters", info->parameters, "sha256", info->sha256);
   for (const auto& tensor : info->tensors) {
-    fmt::print("{:<32} {:<4} [{}]\n", tensor.name, tensor.dtype, fmt::join(tensor.shape, ", "));
+    tell("{:<32} {:<4} [{}]\n", files::shown(tensor.name), tensor.dtype,
+         fmt::join(tensor.shape, ", "));
   }
   return ExitCode::kDone;
 }
 
-ExitCode outcome(const Result<void>& done, const Files& files) {
+ExitCode outcome(const Result<void>& done, const Files& paths) {
   if (!done) return report(done.error());
-  fmt::print("{} -> {}\n", files.input.string(), files.output.string());
+  tell("{} -> {}\n", files::shown(paths.input), files::shown(paths.output));
   return ExitCode::kDone;
 }
 

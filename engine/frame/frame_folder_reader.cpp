@@ -9,10 +9,12 @@
 #include <string_view>
 #include <system_error>
 
+#include "files/open_together.hpp"
+#include "files/shown_name.hpp"
 #include "frame/camera_json.hpp"
 #include "frame/centerline_csv.hpp"
 #include "frame/faults.hpp"
-#include "frame/file_bytes.hpp"
+#include "frame/frame_folder.hpp"
 #include "frame/frame_name.hpp"
 #include "frame/limits.hpp"
 #include "frame/png.hpp"
@@ -46,17 +48,39 @@ std::string described(const cv::Mat& image) {
                      image.channels() == 1 ? "" : "s");
 }
 
-std::string_view view_of(const std::vector<std::uint8_t>& bytes) {
-  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
-}
+/// One of the folder's files, opened beside the others.
+struct Source {
+  std::string who;  ///< its path, for messages
+  files::TogetherFile opened;
 
-cv::Mat load_png(const fs::path& file, Faults& faults) {
-  const auto bytes = frame::read_file(file, kMaxImageBytes);
+  [[nodiscard]] bool is_there() const { return opened.file || opened.error; }
+};
+
+/// What is in the file. None, and a fault, where it is absent, empty, too large or unreadable.
+std::optional<files::FileBytes> content(const Source& source, std::size_t max_bytes,
+                                        Faults& faults) {
+  if (!source.is_there()) {
+    faults.add({ErrorCode::kIo, source.who + ": expected a file, found none; add it"});
+    return std::nullopt;
+  }
+  if (source.opened.error) {
+    faults.add(*source.opened.error);
+    return std::nullopt;
+  }
+  auto bytes = source.opened.file->read(max_bytes);
   if (!bytes) {
     faults.add(bytes.error());
-    return {};
+    return std::nullopt;
   }
-  auto image = frame::decode_png(*bytes, file.string());
+  if (bytes->size > 0) return std::move(*bytes);
+  faults.bad_input(source.who + ": the file is empty; write it again");
+  return std::nullopt;
+}
+
+cv::Mat load_png(const Source& source, Faults& faults) {
+  const auto bytes = content(source, kMaxImageBytes, faults);
+  if (!bytes) return {};
+  auto image = frame::decode_png(bytes->view(), source.who);
   if (!image) {
     faults.add(image.error());
     return {};
@@ -64,13 +88,10 @@ cv::Mat load_png(const fs::path& file, Faults& faults) {
   return *image;
 }
 
-CameraFile load_camera(const fs::path& file, Faults& faults) {
-  const auto bytes = frame::read_file(file, kMaxTextBytes);
-  if (!bytes) {
-    faults.add(bytes.error());
-    return {};
-  }
-  const auto camera = frame::parse_camera(view_of(*bytes), file.string());
+CameraFile load_camera(const Source& source, Faults& faults) {
+  const auto bytes = content(source, kMaxTextBytes, faults);
+  if (!bytes) return {};
+  const auto camera = frame::parse_camera(bytes->text(), source.who);
   if (!camera) {
     faults.add(camera.error());
     return {};
@@ -78,13 +99,13 @@ CameraFile load_camera(const fs::path& file, Faults& faults) {
   return *camera;
 }
 
-cv::Mat load_depth(const fs::path& file, Faults& faults) {
-  cv::Mat depth = load_png(file, faults);
+cv::Mat load_depth(const Source& source, Faults& faults) {
+  cv::Mat depth = load_png(source, faults);
   if (depth.empty() || depth.type() == CV_16UC1) return depth;
   faults.bad_input(
       fmt::format("{}: expected a 16-bit image of 1 channel, got {}; write the depth "
                   "as 16-bit units of camera.json's depth_scale",
-                  file.string(), described(depth)));
+                  source.who, described(depth)));
   return {};
 }
 
@@ -99,32 +120,32 @@ cv::Mat largest_channel(const cv::Mat& image) {
   return largest;
 }
 
-cv::Mat load_mask(const fs::path& file, Faults& faults) {
-  cv::Mat mask = load_png(file, faults);
+cv::Mat load_mask(const Source& source, Faults& faults) {
+  cv::Mat mask = load_png(source, faults);
   if (mask.empty()) return {};
   if (mask.depth() != CV_8U) {
     faults.bad_input(fmt::format("{}: expected an 8-bit image, got {}; write the rope as 255",
-                                 file.string(), described(mask)));
+                                 source.who, described(mask)));
     return {};
   }
   if (mask.channels() != 1) mask = largest_channel(mask);
   double largest = 0;
   cv::minMaxLoc(mask, nullptr, &largest);
   if (largest == 1) {
-    faults.bad_input(file.string() +
+    faults.bad_input(source.who +
                      ": expected the rope over 127, got values of 0 and 1; multiply by 255");
     return {};
   }
   return mask;
 }
 
-cv::Mat load_color(const fs::path& file, Faults& faults) {
-  if (!is_there(file)) return {};  // no estimate needs it
-  cv::Mat color = load_png(file, faults);
+cv::Mat load_color(const Source& source, Faults& faults) {
+  if (!source.is_there()) return {};  // no estimate needs it
+  cv::Mat color = load_png(source, faults);
   if (color.empty()) return {};
   if (color.depth() != CV_8U) {
     faults.bad_input(fmt::format("{}: expected an 8-bit image, got {}; convert it to 8-bit BGR",
-                                 file.string(), described(color)));
+                                 source.who, described(color)));
     return {};
   }
   cv::Mat bgr;
@@ -137,7 +158,7 @@ void check_size(const fs::path& file, const cv::Mat& image, const char* other, i
                 int height, Faults& faults) {
   if (image.empty() || (image.cols == width && image.rows == height)) return;
   faults.bad_input(fmt::format("{}: expected {} x {} px as in {}, got {} x {}; align the images",
-                               file.string(), width, height, other, image.cols, image.rows));
+                               files::shown(file), width, height, other, image.cols, image.rows));
 }
 
 void check_sizes(const fs::path& folder, Files& files, Faults& faults) {
@@ -155,14 +176,11 @@ void check_sizes(const fs::path& folder, Files& files, Faults& faults) {
   check_size(folder / "color.png", color, reference, camera.width, camera.height, faults);
 }
 
-std::optional<Centerline> load_truth(const fs::path& file, Faults& faults) {
-  if (!is_there(file)) return std::nullopt;
-  const auto bytes = frame::read_file(file, kMaxTextBytes);
-  if (!bytes) {
-    faults.add(bytes.error());
-    return std::nullopt;
-  }
-  const auto truth = frame::parse_centerline(view_of(*bytes), file.string());
+std::optional<Centerline> load_truth(const Source& source, Faults& faults) {
+  if (!source.is_there()) return std::nullopt;
+  const auto bytes = content(source, kMaxTextBytes, faults);
+  if (!bytes) return std::nullopt;
+  const auto truth = frame::parse_centerline(bytes->text(), source.who);
   if (truth) return *truth;
   faults.add(truth.error());
   return std::nullopt;
@@ -184,21 +202,28 @@ std::vector<float> metres_of(const cv::Mat& depth, double scale_m) {
   return depth_m;
 }
 
-Result<FrameFolder> load(const fs::path& folder) {
+}  // namespace
+
+Result<FrameFolder> frame::load_folder(const fs::path& folder, const files::SystemCalls& calls) {
   std::error_code failure;
   if (!fs::is_directory(folder, failure)) {
     return Error{ErrorCode::kIo,
                  fmt::format("{}: expected a folder with depth.png, mask.png and camera.json, got "
                              "{}; check the path",
-                             folder.string(), is_there(folder) ? "no folder" : "nothing")};
+                             files::shown(folder), is_there(folder) ? "no folder" : "nothing")};
   }
+  auto opened = files::open_together(folder, frame::kFrameFiles, calls);
+  if (!opened) return opened.error();
+  const auto source = [&](std::size_t i) {
+    return Source{files::shown(folder / frame::kFrameFiles[i]), std::move((*opened)[i])};
+  };
   Faults faults;
   Files files;
-  files.camera = load_camera(folder / "camera.json", faults);
-  files.depth = load_depth(folder / "depth.png", faults);
-  files.mask = load_mask(folder / "mask.png", faults);
-  files.color = load_color(folder / "color.png", faults);
-  auto truth = load_truth(folder / "truth.csv", faults);
+  files.camera = load_camera(source(0), faults);
+  files.depth = load_depth(source(1), faults);
+  files.mask = load_mask(source(2), faults);
+  files.color = load_color(source(3), faults);
+  auto truth = load_truth(source(4), faults);
   check_sizes(folder, files, faults);
   if (!faults.empty()) return faults.error();
 
@@ -214,10 +239,9 @@ Result<FrameFolder> load(const fs::path& folder) {
   return loaded;
 }
 
-}  // namespace
-
 Result<FrameFolder> load_frame_folder(const fs::path& folder) {
-  return guard::guarded("load_frame_folder", [&] { return load(folder); });
+  return guard::guarded("load_frame_folder",
+                        [&] { return frame::load_folder(folder, files::kernel()); });
 }
 
 }  // namespace flowdlo

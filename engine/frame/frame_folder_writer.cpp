@@ -3,14 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <system_error>
 
+#include "files/folder_update.hpp"
 #include "flowdlo/frame_folder.hpp"
 #include "frame/camera_json.hpp"
 #include "frame/centerline_csv.hpp"
+#include "frame/frame_folder.hpp"
 #include "frame/limits.hpp"
 #include "frame/png.hpp"
-#include "frame/staged_files.hpp"
 #include "guard/guarded.hpp"
 
 namespace flowdlo {
@@ -39,10 +39,10 @@ Result<cv::Mat> units_of(const Frame& frame, double scale_m) {
                   frame::kMaxDepthUnit * scale_m, frame::kMaxDepthUnit, scale_m, too_far)};
 }
 
-Result<void> stage_png(frame::StagedFiles& staged, const fs::path& file, const cv::Mat& image) {
+Result<void> put_png(files::FolderUpdate& update, const char* name, const cv::Mat& image) {
   const auto bytes = frame::encode_png(image);
   if (!bytes) return bytes.error();
-  return staged.add(file, *bytes);
+  return update.put(name, *bytes);
 }
 
 template <class Pixel>
@@ -51,61 +51,53 @@ cv::Mat mat_over(std::span<const Pixel> pixels, const Frame& frame, int type) {
   return {frame.height, frame.width, type, const_cast<Pixel*>(pixels.data())};
 }
 
-Result<void> stage_all(frame::StagedFiles& staged, const fs::path& folder, const Frame& frame,
-                       double depth_scale_m, const Centerline* truth) {
-  const auto units = units_of(frame, depth_scale_m);
-  if (!units) return units.error();
-  if (auto done = stage_png(staged, folder / "depth.png", *units); !done) return done;
-  const auto mask = mat_over(frame.mask, frame, CV_8UC1);
-  if (auto done = stage_png(staged, folder / "mask.png", mask); !done) return done;
-  if (!frame.color_bgr.empty()) {
-    const auto color = mat_over(frame.color_bgr, frame, CV_8UC3);
-    if (auto done = stage_png(staged, folder / "color.png", color); !done) return done;
-  }
-  if (truth != nullptr) {
-    if (auto done = staged.add(folder / "truth.csv", frame::format_centerline(*truth)); !done) {
-      return done;
-    }
-  }
-  return staged.add(
-      folder / "camera.json",
-      frame::format_camera({frame.width, frame.height, frame.intrinsics, depth_scale_m}));
-}
-
 // A frame must not keep the colour or the truth of the one that stood here before.
-void remove_stale(const fs::path& folder, const Frame& frame, const Centerline* truth) {
-  std::error_code ignored;
-  if (frame.color_bgr.empty()) fs::remove(folder / "color.png", ignored);
-  if (truth == nullptr) fs::remove(folder / "truth.csv", ignored);
-}
-
-Result<void> save(const fs::path& folder, const Frame& frame, double depth_scale,
-                  const Centerline* truth) {
-  if (auto valid = validate(frame); !valid) return valid;
-  if (!(depth_scale > 0 && depth_scale <= frame::kMaxDepthScale_m)) {
-    return Error{
-        ErrorCode::kBadInput,
-        fmt::format("save_frame_folder: depth_scale: expected metres a unit, over 0 and at "
-                    "most {}, got {}",
-                    frame::kMaxDepthScale_m, depth_scale)};
+Result<void> put_all(files::FolderUpdate& update, const Frame& frame, double depth_scale_m,
+                     const Centerline* truth, const cv::Mat& units) {
+  if (auto done = put_png(update, "depth.png", units); !done) return done;
+  const auto mask = mat_over(frame.mask, frame, CV_8UC1);
+  if (auto done = put_png(update, "mask.png", mask); !done) return done;
+  if (frame.color_bgr.empty()) {
+    update.remove("color.png");
+  } else {
+    const auto color = mat_over(frame.color_bgr, frame, CV_8UC3);
+    if (auto done = put_png(update, "color.png", color); !done) return done;
   }
-  std::error_code failure;
-  fs::create_directories(folder, failure);
-  if (failure) {
-    return Error{ErrorCode::kIo, folder.string() + ": cannot be made: " + failure.message()};
+  if (truth == nullptr) {
+    update.remove("truth.csv");
+  } else if (auto done = update.put("truth.csv", frame::format_centerline(*truth)); !done) {
+    return done;
   }
-  frame::StagedFiles staged;
-  if (auto done = stage_all(staged, folder, frame, depth_scale, truth); !done) return done;
-  remove_stale(folder, frame, truth);
-  return staged.commit();
+  return update.put(frame::kKeyFile, frame::format_camera({frame.width, frame.height,
+                                                           frame.intrinsics, depth_scale_m}));
 }
 
 }  // namespace
 
+Result<void> frame::save_folder(const fs::path& folder, const Frame& frame, double depth_scale_m,
+                                const Centerline* truth, Durability durability,
+                                const files::SystemCalls& calls) {
+  if (auto valid = validate(frame); !valid) return valid;
+  if (!(depth_scale_m > 0 && depth_scale_m <= kMaxDepthScale_m)) {
+    return Error{
+        ErrorCode::kBadInput,
+        fmt::format("save_frame_folder: depth_scale: expected metres a unit, over 0 and at "
+                    "most {}, got {}",
+                    kMaxDepthScale_m, depth_scale_m)};
+  }
+  const auto units = units_of(frame, depth_scale_m);
+  if (!units) return units.error();
+  auto update = files::FolderUpdate::begin(folder, kKeyFile, durability, calls);
+  if (!update) return update.error();
+  if (auto done = put_all(*update, frame, depth_scale_m, truth, *units); !done) return done;
+  return update->commit();
+}
+
 Result<void> save_frame_folder(const fs::path& folder, const Frame& frame, double depth_scale,
-                               const Centerline* truth) {
-  return guard::guarded("save_frame_folder",
-                        [&] { return save(folder, frame, depth_scale, truth); });
+                               const Centerline* truth, Durability durability) {
+  return guard::guarded("save_frame_folder", [&] {
+    return frame::save_folder(folder, frame, depth_scale, truth, durability, files::kernel());
+  });
 }
 
 }  // namespace flowdlo

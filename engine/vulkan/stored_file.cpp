@@ -1,13 +1,14 @@
 #include "vulkan/stored_file.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
 #include <cstring>
-#include <fstream>
+#include <string>
 
+#include "files/regular_file.hpp"
+#include "files/staged_files.hpp"
 #include "flowdlo/version.hpp"
 #include "vulkan/shader_code.hpp"
 
@@ -69,17 +70,12 @@ std::filesystem::path file_for(const Device& device, const std::filesystem::path
 
 std::vector<char> read_stored(const Device& device, const std::filesystem::path& folder,
                               std::string_view kind) {
-  const std::filesystem::path path = file_for(device, folder, kind);
-  std::error_code problem;
-  const std::uintmax_t size = std::filesystem::file_size(path, problem);
-  if (problem || size < sizeof(Header) || size > kLargestFile) return {};
-  std::ifstream file(path, std::ios::binary);
-  Header header{};
-  if (!file.read(reinterpret_cast<char*>(&header), sizeof(header))) return {};
-  std::vector<char> content(size - sizeof(header));
-  if (!file.read(content.data(), static_cast<std::streamsize>(content.size()))) return {};
+  const auto bytes = files::read_file(file_for(device, folder, kind), kLargestFile);
+  if (!bytes || bytes->size < sizeof(Header)) return {};
+  const std::string_view text = bytes->text().substr(sizeof(Header));
+  std::vector<char> content(text.begin(), text.end());
   const Header expected = header_for(device, kind, content);
-  if (std::memcmp(&header, &expected, sizeof(header)) != 0) return {};
+  if (std::memcmp(bytes->data.get(), &expected, sizeof(Header)) != 0) return {};
   return content;
 }
 
@@ -87,21 +83,12 @@ void write_stored(const Device& device, const std::filesystem::path& folder, std
                   const std::vector<char>& content) {
   std::error_code problem;
   std::filesystem::create_directories(folder, problem);
-  const std::filesystem::path path = file_for(device, folder, kind);
-  std::filesystem::path temporary = path;
-  // Unique among all that may write at once: this process, this device.
-  temporary += fmt::format(".{}.{}", getpid(), static_cast<const void*>(&device));
-  {
-    std::ofstream file(temporary, std::ios::binary);
-    const Header header = header_for(device, kind, content);
-    file.write(reinterpret_cast<const char*>(&header), sizeof(header));
-    file.write(content.data(), static_cast<std::streamsize>(content.size()));
-    if (file.flush().good()) {
-      std::filesystem::rename(temporary, path, problem);
-      if (!problem) return;
-    }
-  }
-  std::filesystem::remove(temporary, problem);
+  const Header header = header_for(device, kind, content);
+  std::string bytes(reinterpret_cast<const char*>(&header), sizeof(header));
+  bytes.append(content.begin(), content.end());
+  // Its checksum tells a file that a power cut has torn: there is no need to wait for the disk.
+  files::StagedFiles staged(Durability::kUnsynced);
+  if (staged.add(file_for(device, folder, kind), bytes)) (void)staged.commit();
 }
 
 }  // namespace flowdlo::vulkan

@@ -1,6 +1,7 @@
 // Weights to and from .safetensors.
 #include <fmt/format.h>
 
+#include "files/whole_file.hpp"
 #include "flowdlo/weights.hpp"
 #include "guard/guarded.hpp"
 #include "weights/fdw.hpp"
@@ -51,7 +52,7 @@ Result<void> exported(const std::filesystem::path& weights, const std::filesyste
   const auto* header_bytes = reinterpret_cast<const std::uint8_t*>(header.data());
   std::vector<std::span<const std::uint8_t>> parts{{header_bytes, header.size()}};
   parts.insert(parts.end(), encoded.begin(), encoded.end());
-  return ws::write_file(output, parts);
+  return files::write_file(output, parts);
 }
 
 }  // namespace

@@ -19,10 +19,10 @@ class KeptFile {
 
  private:
   friend Result<Loaded> load_and_keep(const std::filesystem::path& file);
-  KeptFile(FileBytes bytes, Metadata metadata)
+  KeptFile(files::FileBytes bytes, Metadata metadata)
       : bytes_(std::move(bytes)), metadata_(std::move(metadata)) {}
 
-  FileBytes bytes_;
+  files::FileBytes bytes_;
   Metadata metadata_;
 };
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "files/whole_file.hpp"
 #include "flowdlo_weights_generated.h"
 #include "weights/fdw.hpp"
 #include "weights/file.hpp"
@@ -100,7 +101,7 @@ Result<void> write_fdw(const Weights& weights, const std::vector<StorageType>& t
   const auto metadata = add_metadata(builder, weights.metadata, sha.finish());
   const auto list_of_tensors = builder.CreateVector(tensors);
   fdw::FinishWeightsBuffer(builder, fdw::CreateWeights(builder, metadata, list_of_tensors));
-  return write_file(file, {{builder.GetBufferPointer(), builder.GetSize()}});
+  return files::write_file(file, {{builder.GetBufferPointer(), builder.GetSize()}});
 }
 
 Result<void> save(const Weights& weights, const std::filesystem::path& file, StorageType type) {

@@ -3,6 +3,7 @@
 
 #include "flowdlo/config.hpp"        // IWYU pragma: export
 #include "flowdlo/devices.hpp"       // IWYU pragma: export
+#include "flowdlo/durability.hpp"    // IWYU pragma: export
 #include "flowdlo/estimate.hpp"      // IWYU pragma: export
 #include "flowdlo/estimator.hpp"     // IWYU pragma: export
 #include "flowdlo/frame.hpp"         // IWYU pragma: export

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "flowdlo/centerline.hpp"
+#include "flowdlo/durability.hpp"
 #include "flowdlo/export.hpp"
 #include "flowdlo/frame.hpp"
 #include "flowdlo/result.hpp"
@@ -34,15 +35,17 @@ struct FrameFolder {
 /// Reads `folder`. camera.json may be our own form, BOP's (cam_K, depth_scale in mm) or Open3D's
 /// (intrinsic_matrix, column-major; depth_scale 0.001 when it has none). color.png and truth.csv
 /// may be absent; of a coloured mask.png the largest channel counts. Fails with kIo or kBadInput,
-/// naming the file and the remedy; every fault found is listed.
+/// naming the file and the remedy; every fault found is listed. Beside a save_frame_folder(), or
+/// after one that was cut off, it is all of the earlier frame or all of the later one.
 [[nodiscard]] FLOWDLO_EXPORT Result<FrameFolder> load_frame_folder(
     const std::filesystem::path& folder);
 
-/// Writes `frame` (and `truth`, when given) as a frame folder; each file under a temporary name
-/// first. Depth is rounded to the nearest step of `depth_scale` metres, and is 0 where there is
-/// none. Fails with kIo, or with kBadInput when the frame is not valid or lies beyond 65535 steps.
-[[nodiscard]] FLOWDLO_EXPORT Result<void> save_frame_folder(const std::filesystem::path& folder,
-                                                            const Frame& frame, double depth_scale,
-                                                            const Centerline* truth = nullptr);
+/// Writes `frame` (and `truth`, when given) as a frame folder. The folder changes as a whole or not
+/// at all, whatever fails and whenever the process ends; other files in it stay. Depth is rounded
+/// to the nearest step of `depth_scale` metres, and is 0 where there is none. Fails with kIo, or
+/// with kBadInput when the frame is not valid or lies beyond 65535 steps.
+[[nodiscard]] FLOWDLO_EXPORT Result<void> save_frame_folder(
+    const std::filesystem::path& folder, const Frame& frame, double depth_scale,
+    const Centerline* truth = nullptr, Durability durability = Durability::kSynced);
 
 }  // namespace flowdlo

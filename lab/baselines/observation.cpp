@@ -3,14 +3,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <opencv2/imgproc.hpp>
 #include <system_error>
+
 #include <utility>
+#include "files/regular_file.hpp"
 
 namespace flowdlo::baselines {
 namespace {
+
+constexpr std::uint64_t kMostBytes = 1U << 20U;  // of meta.json
 
 bool read_triple(const nlohmann::json& json, const char* key, std::array<int, 3>& values) {
   const auto found = json.find(key);
@@ -27,8 +30,9 @@ Result<std::optional<HsvBand>> read_band(const std::filesystem::path& folder) {
   const auto file = folder / "meta.json";
   std::error_code failure;
   if (!std::filesystem::exists(file, failure)) return std::optional<HsvBand>();
-  std::ifstream stream(file);
-  const auto json = nlohmann::json::parse(stream, nullptr, false);
+  const auto content = files::read_text(file, kMostBytes);
+  if (!content) return content.error();
+  const auto json = nlohmann::json::parse(*content, nullptr, false);
   const Error bad{ErrorCode::kBadInput,
                   fmt::format("{}: expected \"hsv_band\" with \"low\" and \"high\" of three whole "
                               "numbers 0..255 each; mend the file, or remove it",

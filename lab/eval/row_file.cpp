@@ -6,16 +6,18 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <fstream>
-#include <iterator>
 #include <string_view>
 #include <system_error>
 #include <utility>
+
+#include "files/regular_file.hpp"
 
 namespace flowdlo::eval {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr std::uint64_t kMostBytes = std::uint64_t{4} << 30U;  // a million rows and more
 
 std::vector<std::size_t> lacking_rows(const RunInfo& info,
                                       const std::map<std::size_t, Trial>& trials) {
@@ -46,11 +48,9 @@ Result<void> add_row(std::string_view line, const std::string& who, RowFileConte
 std::vector<std::size_t> RowFileContent::lacking() const { return lacking_rows(info, trials); }
 
 Result<RowFileContent> read_row_file(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  const std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-  if (!stream.is_open() || stream.bad()) {
-    return Error{ErrorCode::kIo, file.string() + ": cannot be read; check path and permissions"};
-  }
+  const auto whole = files::read_text(file, kMostBytes);
+  if (!whole) return whole.error();
+  const std::string& text = *whole;
   RowFileContent content;
   int number = 0;
   for (std::size_t begin = 0;;) {
@@ -73,7 +73,8 @@ Result<RowFileContent> read_row_file(const fs::path& file) {
 
 Result<RowFile> RowFile::open(const fs::path& folder, const RunInfo& info) {
   const fs::path path = folder / row_file_name(info.shard);
-  const int descriptor = ::open(path.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
+  const int descriptor =
+      ::open(path.c_str(), O_RDWR | O_CREAT | O_APPEND | O_NONBLOCK | O_NOCTTY | O_CLOEXEC, 0666);
   RowFile file(path, descriptor);
   if (descriptor < 0) return file.io_error("opened");
   if (::flock(descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {

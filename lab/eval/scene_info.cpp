@@ -4,12 +4,15 @@
 
 #include <algorithm>
 #include <array>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <system_error>
 
+#include "files/regular_file.hpp"
+
 namespace flowdlo::eval {
 namespace {
+
+constexpr std::uint64_t kMostBytes = 1U << 20U;  // of meta.json
 
 constexpr std::array<const char*, 4> kHard{"gap", "touch", "coil", "depth_holes"};
 constexpr std::array<const char*, 4> kNotEasy{"hidden_end", "outside", "depth_turn",
@@ -37,8 +40,9 @@ Result<SceneInfo> read_scene_info(const std::filesystem::path& folder) {
   SceneInfo info;
   std::error_code failure;
   if (!std::filesystem::exists(file, failure)) return info;
-  std::ifstream stream(file);
-  const auto json = nlohmann::json::parse(stream, nullptr, false);
+  const auto content = files::read_text(file, kMostBytes);
+  if (!content) return content.error();
+  const auto json = nlohmann::json::parse(*content, nullptr, false);
   if (!json.is_object()) return bad(file, "expected a JSON object");
   const auto text = [&](const char* key, std::string& value) {
     const auto found = json.find(key);

@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <fstream>
 #include <span>
-#include <system_error>
+
+#include "files/whole_file.hpp"
 
 namespace flowdlo::lab {
 namespace {
@@ -71,15 +71,7 @@ std::string constants_text(const gate::GateWeights& weights, const std::string& 
 }
 
 Result<void> write_text(const std::filesystem::path& file, const std::string& text) {
-  const std::filesystem::path temporary = file.string() + ".tmp";
-  std::ofstream stream(temporary);
-  stream << text;
-  stream.close();
-  std::error_code failure;
-  if (stream) std::filesystem::rename(temporary, file, failure);
-  if (stream && !failure) return {};
-  std::filesystem::remove(temporary, failure);
-  return Error{ErrorCode::kIo, fmt::format("{}: cannot be written", file.string())};
+  return files::write_file(file, text);
 }
 
 }  // namespace flowdlo::lab

@@ -7,6 +7,9 @@
 #include <limits>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
+#include <vector>
+
+#include "files/whole_file.hpp"
 
 namespace flowdlo::plot {
 namespace {
@@ -107,13 +110,11 @@ Result<void> save_panels(std::span<const Panel> panels, const std::filesystem::p
     draw_panel(page, panels[static_cast<std::size_t>(i)],
                {(i % 2) * kWidth, (i / 2) * kHeight, kWidth, kHeight});
   }
-  const auto temporary = file.parent_path() / fmt::format(".{}.tmp.png", file.stem().string());
-  std::error_code failed;
-  const bool written = cv::imwrite(temporary.string(), page);
-  if (written) std::filesystem::rename(temporary, file, failed);
-  if (written && !failed) return {};
-  return Error{ErrorCode::kIo,
-               fmt::format("{}: expected a writable folder; check the path", file.string())};
+  std::vector<std::uint8_t> png;
+  if (!cv::imencode(".png", page, png)) {
+    return Error{ErrorCode::kInternal, file.string() + ": the plot cannot be encoded"};
+  }
+  return files::write_file(file, {png});
 }
 
 }  // namespace flowdlo::plot

@@ -1,7 +1,7 @@
 #include "prior_report/overlay.hpp"
 
 #include "eval/error_overlay.hpp"
-#include "frame/staged_files.hpp"
+#include "files/whole_file.hpp"
 
 namespace flowdlo::lab {
 
@@ -9,8 +9,7 @@ bool save_overlay(const std::string& file, const Scene& scene, const Centerline&
                   const prior::Prior& prior) {
   const auto picture = eval::error_overlay_png(scene.frame(), truth, prior.nodes, prior.support);
   if (!picture) return false;
-  frame::StagedFiles files;
-  return files.add(file, *picture) && files.commit();
+  return files::write_file(file, {*picture}).has_value();
 }
 
 }  // namespace flowdlo::lab

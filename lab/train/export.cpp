@@ -1,9 +1,9 @@
 #include "train/export.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include "evidence/mask_field.hpp"
+#include "files/temporary_file.hpp"
 #include "flowdlo/weights.hpp"
 #include "train/weights_exchange.hpp"
 
@@ -39,13 +39,14 @@ Result<void> export_weights(const weights::Weights& weights, const std::filesyst
                                                    ".safetensors",
                                                    file.string())};
   }
-  const std::filesystem::path between =
-      file.parent_path() / fmt::format(".{}-{}.fdw.tmp", file.stem().string(), ::getpid());
-  auto saved = weights::save(weights, between, type);
-  auto exported = saved ? export_safetensors(between, file) : saved;
-  std::error_code ignored;
-  std::filesystem::remove(between, ignored);
-  return exported;
+  const auto folder = files::Folder::open(file.parent_path());
+  if (!folder) return folder.error();
+  const auto between = files::TemporaryFile::create(*folder, files::TemporaryKind::kSingle,
+                                                    file.filename().string());
+  if (!between) return between.error();
+  const auto place = file.parent_path() / between->name();
+  if (auto saved = weights::save(weights, place, type); !saved) return saved;
+  return export_safetensors(place, file);
 }
 
 }  // namespace flowdlo::train

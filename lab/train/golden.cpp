@@ -9,9 +9,9 @@
 #include <span>
 
 #include "evidence/visible_points.hpp"
+#include "files/whole_file.hpp"
 #include "geometry/camera.hpp"
 #include "train/record_file.hpp"
-#include "weights/file.hpp"
 
 namespace flowdlo::train {
 namespace {
@@ -131,7 +131,7 @@ Result<void> write_golden(const std::vector<GoldenCase>& cases,
   for (const GoldenCase& one : cases) json.push_back(to_json(one));
   const std::string text = json.dump() + "\n";
   const auto* bytes = reinterpret_cast<const std::uint8_t*>(text.data());
-  return weights::write_file(folder / "golden.json", {{bytes, text.size()}});
+  return files::write_file(folder / "golden.json", {{bytes, text.size()}});
 }
 
 Result<std::vector<GoldenCase>> read_golden(const std::filesystem::path& folder) {

@@ -4,13 +4,12 @@
 
 #include <bit>
 #include <cstring>
-#include <fstream>
-#include <iterator>
 #include <span>
 #include <stdexcept>
 #include <type_traits>
 
-#include "weights/file.hpp"
+#include "files/regular_file.hpp"
+#include "files/whole_file.hpp"
 #include "weights/sha256.hpp"
 
 namespace flowdlo::train {
@@ -20,6 +19,7 @@ static_assert(std::endian::native == std::endian::little, "shards are little-end
 
 constexpr char kMagic[8] = {'F', 'D', 'L', 'R', 'E', 'C', '0', '1'};
 constexpr std::size_t kDigestBytes = 64;
+constexpr std::uint64_t kMostBytes = std::uint64_t{8} << 30U;  // of a shard
 
 class Writer {
  public:
@@ -126,15 +126,6 @@ Error damaged(const std::filesystem::path& file, const std::string& got) {
                       file.string(), got)};
 }
 
-Result<std::vector<std::uint8_t>> read_all(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream) {
-    return Error{ErrorCode::kIo,
-                 fmt::format("{}: expected a readable file; check the path", file.string())};
-  }
-  return std::vector<std::uint8_t>(std::istreambuf_iterator<char>(stream), {});
-}
-
 std::string digest_of(std::span<const std::uint8_t> bytes) {
   weights::Sha256 sha;
   sha.update(bytes);
@@ -155,21 +146,22 @@ Result<void> write_shard(Shard& shard, const std::filesystem::path& file) {
 
   const auto* magic = reinterpret_cast<const std::uint8_t*>(kMagic);
   const auto* digest = reinterpret_cast<const std::uint8_t*>(shard.sha256.data());
-  return weights::write_file(
+  return files::write_file(
       file, {{magic, sizeof kMagic}, {digest, kDigestBytes}, std::span(writer.bytes())});
 }
 
 Result<Shard> read_shard(const std::filesystem::path& file) {
-  const auto bytes = read_all(file);
-  if (!bytes) return bytes.error();
+  const auto content = files::read_file(file, kMostBytes);
+  if (!content) return content.error();
+  const auto bytes = content->view();
   constexpr std::size_t kHead = sizeof kMagic + kDigestBytes;
-  if (bytes->size() < kHead || std::memcmp(bytes->data(), kMagic, sizeof kMagic) != 0) {
+  if (bytes.size() < kHead || std::memcmp(bytes.data(), kMagic, sizeof kMagic) != 0) {
     return damaged(file, "another kind of file or version");
   }
-  const auto payload = std::span(*bytes).subspan(kHead);
+  const auto payload = bytes.subspan(kHead);
   Shard shard;
   shard.sha256 = digest_of(payload);
-  if (std::memcmp(shard.sha256.data(), bytes->data() + sizeof kMagic, kDigestBytes) != 0) {
+  if (std::memcmp(shard.sha256.data(), bytes.data() + sizeof kMagic, kDigestBytes) != 0) {
     return damaged(file, "one whose content does not match its digest");
   }
   Reader reader(payload);

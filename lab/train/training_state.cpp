@@ -1,9 +1,10 @@
 #include "train/training_state.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <vector>
+
+#include "files/temporary_file.hpp"
 
 namespace flowdlo::train {
 namespace {
@@ -85,10 +86,13 @@ TrainingState start(const Recipe& recipe, torch::Device device) {
 }
 
 Result<void> save_checkpoint(const TrainingState& state, const std::filesystem::path& file) {
-  const std::filesystem::path temporary =
-      file.parent_path() / fmt::format(".{}-{}.tmp", file.filename().string(), ::getpid());
+  const auto folder = files::Folder::make(file.parent_path());
+  if (!folder) return folder.error();
+  auto temporary = files::TemporaryFile::create(*folder, files::TemporaryKind::kSingle,
+                                                file.filename().string());
+  if (!temporary) return temporary.error();
+  Result<void> written;
   try {
-    std::filesystem::create_directories(file.parent_path());
     torch::serialize::OutputArchive archive;
     archive.write("version", c10::IValue(kCheckpointVersion));
     archive.write("step", c10::IValue(state.step));
@@ -115,16 +119,20 @@ Result<void> save_checkpoint(const TrainingState& state, const std::filesystem::
     torch::serialize::OutputArchive optimizer;
     state.optimizer->save(optimizer);
     archive.write("optimizer", optimizer);
-    archive.save_to(temporary.string());
-    std::filesystem::rename(temporary, file);
+    archive.save_to([&](const void* data, std::size_t size) -> std::size_t {
+      if (written) written = temporary->write({static_cast<const std::uint8_t*>(data), size});
+      return size;
+    });
   } catch (const std::exception& thrown) {
-    std::error_code ignored;
-    std::filesystem::remove(temporary, ignored);
     return Error{ErrorCode::kIo, fmt::format("{}: expected a writable place, got \"{}\"; check the "
                                              "folder",
                                              file.string(), thrown.what())};
   }
-  return {};
+  if (written) written = temporary->finish(Durability::kSynced);
+  if (written) written = temporary->take_place();
+  if (!written) return written;
+  files::sweep(*folder, files::TemporaryKind::kSingle);
+  return folder->sync(Durability::kSynced);
 }
 
 Result<TrainingState> load_checkpoint(const std::filesystem::path& file, torch::Device device) {

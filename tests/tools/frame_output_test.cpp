@@ -1,5 +1,6 @@
 #include "frame_output.hpp"
 
+#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -7,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "files/failing_calls.hpp"
 #include "flowdlo/frame_folder.hpp"
 #include "frame/centerline_csv.hpp"
 #include "frame/temporary_folder.hpp"
@@ -31,8 +33,10 @@ class FrameOutput : public testing::Test {
     frame_ = *loaded;
   }
 
-  [[nodiscard]] Result<void> write(const Tensors* tensors = nullptr) const {
-    return write_estimate(out(), frame_.frame(), test::sample_estimate(), tensors, kProvenance);
+  [[nodiscard]] Result<void> write(const Tensors* tensors = nullptr,
+                                   const files::SystemCalls& calls = files::kernel()) const {
+    return write_estimate(out(), frame_.frame(), test::sample_estimate(), tensors, kProvenance,
+                          Durability::kSynced, calls);
   }
   [[nodiscard]] fs::path out() const { return parent_.path() / "out" / "rope"; }
   [[nodiscard]] std::set<std::string> files() const {
@@ -79,6 +83,72 @@ TEST_F(FrameOutput, NoCurveStaysBesideAFailedStatus) {
   ASSERT_TRUE(write_failure(out(), {ErrorCode::kNoPath, "the mask holds no stroke"}, kProvenance));
   EXPECT_THAT(files(), ElementsAre("estimate.json"));
   EXPECT_EQ(Json::parse(test::read_text(out() / "estimate.json"))["status"], "no_path");
+}
+
+/// A disk on which nothing more can be made; what is there can be read and removed.
+class FullDisk : public test::FailingCalls {
+ public:
+  int openat(int folder, const char* name, int flags, mode_t mode) const override {
+    return (flags & O_CREAT) == 0 ? SystemCalls::openat(folder, name, flags, mode) : full();
+  }
+  int mkdirat(int, const char*, mode_t) const override { return full(); }
+  ssize_t write(int, const void*, std::size_t) const override { return full(); }
+
+ private:
+  static int full() {
+    errno = ENOSPC;
+    return -1;
+  }
+};
+
+TEST_F(FrameOutput, NoResultOfAnEarlierRunStandsBesideAFullDisk) {
+  ASSERT_TRUE(write());
+  const auto done = write(nullptr, FullDisk());
+  ASSERT_FALSE(done);
+  EXPECT_THAT(done.error().message, testing::HasSubstr("No space left on device; make space"));
+  EXPECT_TRUE(files().empty());
+
+  ASSERT_TRUE(write());
+  EXPECT_FALSE(write_failure(out(), {ErrorCode::kNoPath, "no stroke"}, kProvenance,
+                             Durability::kSynced, FullDisk()));
+  EXPECT_TRUE(files().empty());
+}
+
+TEST_F(FrameOutput, FailingAtAnyCallLeavesNoCurveBesideAnotherRunsStatus) {
+  const test::FailingCalls counting;
+  ASSERT_TRUE(write(nullptr, counting));
+  for (int at = 0; at < counting.count(); ++at) {
+    ASSERT_TRUE(write(nullptr, test::FailingCalls()));
+    test::write_text(out() / "estimate.json", "{\"status\": \"old\"}");
+    const auto done = write(nullptr, test::FailingCalls({test::Fault::Kind::kKilled, EIO, at}));
+    const auto status = test::read_text(out() / "estimate.json");
+    if (status.find("\"old\"") != std::string::npos) {
+      EXPECT_EQ(files().count("centerline.csv"), 1) << "nothing was touched before it went: " << at;
+      EXPECT_FALSE(done);
+    }
+    EXPECT_TRUE(!done || Json::parse(status)["status"] == "ok") << at;
+  }
+}
+
+TEST_F(FrameOutput, ForgottenIsWhatAnEarlierRunWroteAndNothingElse) {
+  ASSERT_TRUE(write());
+  test::write_text(out() / "notes.txt", "mine");
+  ASSERT_TRUE(forget_results(out()));
+  EXPECT_THAT(files(), ElementsAre("notes.txt"));
+  EXPECT_TRUE(forget_results(parent_.path() / "none"));
+  EXPECT_FALSE(fs::exists(parent_.path() / "none"));
+}
+
+TEST_F(FrameOutput, PlantedLinksAreReplacedAndTheirTargetsLeft) {
+  const auto victim = parent_.path() / "victim";
+  test::write_text(victim, "precious");
+  fs::create_directories(out());
+  for (const char* name : {"centerline.csv", "estimate.json", "overlay.png"}) {
+    fs::create_symlink(victim, out() / name);
+  }
+  ASSERT_TRUE(write());
+  EXPECT_EQ(test::read_text(victim), "precious");
+  EXPECT_EQ(Json::parse(test::read_text(out() / "estimate.json"))["status"], "ok");
 }
 
 TEST_F(FrameOutput, TensorsOfTheWrongShapeWriteNothing) {

@@ -18,6 +18,8 @@
 #include <utility>
 #include <vector>
 
+#include "files/regular_size.hpp"
+
 namespace flowdlo::recording {
 namespace {
 
@@ -310,13 +312,13 @@ Result<void> check_bag_layout(std::istream& stream, std::uint64_t size, const st
 }
 
 Result<void> check_bag_layout(const std::filesystem::path& file) {
-  std::error_code failure;
-  const auto size = std::filesystem::file_size(file, failure);
+  const auto size = files::regular_size(file);  // a pipe would be waited for
+  if (!size) return size.error();
   std::ifstream stream(file, std::ios::binary);
-  if (failure || !stream) {
+  if (!stream) {
     return Error{ErrorCode::kIo, file.string() + ": cannot be read; check path and permissions"};
   }
-  return check_bag_layout(stream, size, file.string());
+  return check_bag_layout(stream, *size, file.string());
 }
 
 }  // namespace flowdlo::recording

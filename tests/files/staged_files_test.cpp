@@ -1,4 +1,4 @@
-#include "frame/staged_files.hpp"
+#include "files/staged_files.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 
 #include "frame/temporary_folder.hpp"
 
-namespace flowdlo::frame {
+namespace flowdlo::files {
 namespace {
 
 namespace fs = std::filesystem;
@@ -57,4 +57,4 @@ TEST(StagedFiles, FolderInPlaceOfTheFileIsAnError) {
 }
 
 }  // namespace
-}  // namespace flowdlo::frame
+}  // namespace flowdlo::files

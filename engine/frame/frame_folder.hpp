@@ -1,0 +1,26 @@
+// FrameFolder: how a frame folder is read and written, with the system calls to do it by.
+#pragma once
+
+#include <array>
+#include <filesystem>
+
+#include "files/system_calls.hpp"
+#include "flowdlo/durability.hpp"
+#include "flowdlo/frame_folder.hpp"
+
+namespace flowdlo::frame {
+
+/// Without this file a folder is no frame: it goes first and comes last.
+inline constexpr const char* kKeyFile = "camera.json";
+
+inline constexpr std::array<const char*, 5> kFrameFiles = {kKeyFile, "depth.png", "mask.png",
+                                                           "color.png", "truth.csv"};
+
+/// load_frame_folder() and save_frame_folder().
+[[nodiscard]] Result<FrameFolder> load_folder(const std::filesystem::path& folder,
+                                              const files::SystemCalls& calls);
+[[nodiscard]] Result<void> save_folder(const std::filesystem::path& folder, const Frame& frame,
+                                       double depth_scale_m, const Centerline* truth,
+                                       Durability durability, const files::SystemCalls& calls);
+
+}  // namespace flowdlo::frame
