@@ -29,6 +29,13 @@ constexpr std::array<std::array<std::uint8_t, kGlyphHeight>, 10> kGlyphs{{
     {0x1F, 0x10, 0x10, 0x1E, 0x10, 0x10, 0x1F},  // E
 }};
 
+/// A word and the first characters of a number.
+std::string named(const char* word, double number, int digits) {
+  std::string name(word);
+  name.append(1, ' ').append(std::to_string(number), 0, static_cast<std::size_t>(digits));
+  return name;
+}
+
 class Painter {
  public:
   Painter(int width, int height) : width_(width), height_(height) {}
@@ -56,16 +63,14 @@ void paint_noise(Painter& painter) {
     for (const int grain : {1, 3, 8}) {
       Random random(static_cast<std::uint64_t>(1000 * density) + static_cast<std::uint64_t>(grain));
       std::vector<char> row;
-      painter.paint(
-          "noise " + std::to_string(density).substr(0, 4) + " of " + std::to_string(grain) + " px",
-          [&](int u, int v) {
-            const auto cell = static_cast<std::size_t>(u / grain);
-            if (u % grain == 0 && v % grain == 0) {
-              row.resize(std::max(row.size(), cell + 1));
-              row[cell] = random.chance(density) ? 1 : 0;
-            }
-            return row[cell] != 0;
-          });
+      painter.paint(named("noise", density, 4) + named(" of", grain, 1) + " px", [&](int u, int v) {
+        const auto cell = static_cast<std::size_t>(u / grain);
+        if (u % grain == 0 && v % grain == 0) {
+          row.resize(std::max(row.size(), cell + 1));
+          row[cell] = random.chance(density) ? 1 : 0;
+        }
+        return row[cell] != 0;
+      });
     }
   }
 }
@@ -86,7 +91,7 @@ void paint_blobs(int width, int height, Painter& painter) {
     return std::abs(u - w / 2) < w * 0.3 && std::abs(v - h / 2) < h * 0.2;
   });
   for (const double scale : {0.02, 0.04, 0.08}) {
-    painter.paint("clouds " + std::to_string(scale).substr(0, 4), [=](int u, int v) {
+    painter.paint(named("clouds", scale, 4), [=](int u, int v) {
       return std::sin(scale * u + 1) + std::sin(1.3 * scale * v + 2 * std::sin(0.7 * scale * u)) +
                  std::sin(0.8 * scale * (u + v)) >
              0.3;
@@ -105,7 +110,7 @@ void paint_blobs(int width, int height, Painter& painter) {
 
 void paint_patterns(int width, int height, Painter& painter) {
   for (const int pitch : {4, 16, 48}) {
-    const std::string size = " " + std::to_string(pitch) + " px";
+    const std::string size = named("", pitch, pitch < 10 ? 1 : 2) + " px";
     painter.paint("checkers" + size,
                   [=](int u, int v) { return (u / pitch + v / pitch) % 2 == 0; });
     painter.paint("grid" + size, [=](int u, int v) {
@@ -119,7 +124,7 @@ void paint_patterns(int width, int height, Painter& painter) {
     });
   }
   for (const int dot : {3, 6}) {
-    painter.paint("text of " + std::to_string(dot) + " px", [=](int u, int v) {
+    painter.paint(named("text of", dot, 1) + " px", [=](int u, int v) {
       const int x = u / dot;
       const int y = v / dot - 2;
       const int row = y % (kGlyphHeight + 3);
