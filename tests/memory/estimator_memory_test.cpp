@@ -51,7 +51,8 @@ TEST(EstimatorMemory, EstimateWithTensorsSurvivesEveryAllocation) {
   sweep(
       "Estimator::estimate with tensors",
       [&] { return estimator->estimate(wave.frame(), tensors); },
-      [&](const Result<Estimate>& estimate) { return bits_of(*estimate) + bits_of(tensors); });
+      [&](const Result<Estimate>& estimate) { return bits_of(*estimate) + bits_of(tensors); },
+      {4, 8});
 }
 
 TEST(EstimatorMemory, EstimateOfAFrameInDoubtSurvivesEveryAllocation) {
@@ -81,7 +82,7 @@ TEST(EstimatorMemory, AFrameLargerThanPlannedSurvivesEveryAllocationOfItsProgram
     return FailingAllocation::count();
   }();
   for (const Fails fails : {Fails::kOnce, Fails::kFromOn}) {
-    for (const long number : numbers_to_fail(total, {12, 12})) {
+    for (const long number : numbers_to_fail(total, {4, 10})) {
       SCOPED_TRACE(number);
       renew();
       const auto got = [&] {

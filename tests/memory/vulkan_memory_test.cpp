@@ -30,13 +30,11 @@ Config vulkan() {
 
 class VulkanMemory : public ::testing::Test {
  protected:
-  static void SetUpTestSuite() {
-    cache_ = std::make_unique<test::TemporaryFolder>();
-    ::setenv("XDG_CACHE_HOME", cache_->path().c_str(), 1);
-  }
   static void TearDownTestSuite() { cache_.reset(); }
 
   void SetUp() override {
+    if (!cache_) cache_ = std::make_unique<test::TemporaryFolder>();
+    ::setenv("XDG_CACHE_HOME", cache_->path().c_str(), 1);
     auto made = Estimator::create(vulkan());  // the first fills the cache
     if (!made) GTEST_SKIP() << made.error().message;
     estimator_.emplace(*std::move(made));
