@@ -6,8 +6,8 @@
 #include <optional>
 
 #include "flowdlo/estimator.hpp"
-#include "memory/estimate_bits.hpp"
 #include "memory/sweep.hpp"
+#include "support/estimate_bits.hpp"
 #include "support/ring_frame.hpp"
 #include "support/wave_frame.hpp"
 

@@ -8,8 +8,8 @@
 #include "flowdlo/frame_folder.hpp"
 #include "flowdlo/weights.hpp"
 #include "frame/temporary_folder.hpp"
-#include "memory/estimate_bits.hpp"
 #include "memory/sweep.hpp"
+#include "support/estimate_bits.hpp"
 #include "support/wave_frame.hpp"
 
 namespace flowdlo::testing {

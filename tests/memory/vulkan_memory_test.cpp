@@ -9,8 +9,8 @@
 #include "flowdlo/devices.hpp"
 #include "flowdlo/estimator.hpp"
 #include "frame/temporary_folder.hpp"
-#include "memory/estimate_bits.hpp"
 #include "memory/sweep.hpp"
+#include "support/estimate_bits.hpp"
 #include "support/wave_frame.hpp"
 
 namespace flowdlo::testing {
