@@ -56,7 +56,7 @@ TEST(EstimatorMemory, EstimateWithTensorsSurvivesEveryAllocation) {
 }
 
 TEST(EstimatorMemory, EstimateOfAFrameInDoubtSurvivesEveryAllocation) {
-  const WaveFrame frame = ring_frame();
+  const RingFrame frame;
   auto estimator = Estimator::create(cpu(FLOWDLO_DEFAULT_WEIGHTS));
   ASSERT_TRUE(estimator);
   const auto estimate = estimator->estimate(frame.frame());
