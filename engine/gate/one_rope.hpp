@@ -17,7 +17,7 @@ struct OneRopeLimits {
   float left_share = 0.04F;   ///< of the curve; more are strands. 99 % of the right ones to 0.03
   float bare_gap = 2.5F;      ///< widths, and
   float bare_share = 0.025F;  ///< of the curve; more is a jump. 99 % of the right ones to 0.022
-  float goes_on = 2.5F;       ///< widths; from here on the mask is cut off. Right ones to 0.5
+  float goes_on = 2.5F;       ///< widths; from here on the mask is cut off. Right ones to 1.5
 };
 
 /// Expects a valid frame. `rope_width_px` is path::Traversals'.
