@@ -21,12 +21,10 @@ constexpr bool kSanitized = true;  // memory is not the library's alone
 constexpr bool kSanitized = false;
 #endif
 
-struct Ceiling {
-  cv::Size size_px;
-  double times = 0;    // an ordinary frame's processor time
-  double peak_mb = 0;  // of the whole process, the caller's frame among it
-};
+/// Of an ordinary frame's processor time. An ordinary, clear frame takes about 0.2 s at 640 x 480.
+constexpr double kMostTimes = 5;
 
+/// Of the whole process, the caller's frames and the weights among it.
 constexpr double kMostPeakMb = 600;
 
 Estimator make() {
@@ -59,7 +57,6 @@ double times_ordinary(const std::string& name, Estimator& estimator, double& pea
 class Ceilings : public testing::TestWithParam<const char*> {};
 
 TEST_P(Ceilings, HoldInTimeAndMemory) {
-  constexpr double kMostTimes = 6;
   auto estimator = make();
   double peak_mb = 0;
   EXPECT_LE(times_ordinary(GetParam(), estimator, peak_mb), kMostTimes);
@@ -93,7 +90,6 @@ double overlay_s(const FrameFolder& frame) {
 }
 
 TEST(OverlayCeiling, OfNoiseIsThatOfARope) {
-  constexpr double kMostTimes = 4;
   const cv::Size size_px(1920, 1080);
   const auto ordinary = frame_around(draw_ordinary(size_px), "ordinary");
   const auto noise = frame_around(draw(mask_of("noise_50_1920x1080")), "noise");

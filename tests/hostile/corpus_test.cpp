@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <set>
+#include <string>
 
 #include "hostile/hostile_frame.hpp"
 #include "hostile/hostile_mask.hpp"
@@ -19,7 +20,7 @@ TEST(HostileCorpus, HasTwoHundredMasksOfFiveSizesAndNoNameTwice) {
 }
 
 TEST(HostileCorpus, MasksAreDrawnAlikeEachTimeAndNoneIsEmpty) {
-  std::set<std::vector<std::uint8_t>> different;
+  std::set<std::string> different;
   std::size_t drawn = 0;
   for (const HostileMask& mask : hostile_corpus()) {
     if (mask.size_px != cv::Size(640, 480)) continue;
