@@ -17,6 +17,8 @@ constexpr int kSmallestSide_px = 64;
 constexpr double kSmallestScale = 0.2;  // of a scene's own size
 constexpr double kLargestScale = 1.2;
 constexpr int kMostThreads = 4;
+constexpr int kMostSteps = 4;
+constexpr int kMostDraws = 3;
 
 /// A scene at another size, by the nearest pixel.
 struct ScaledFrame {
@@ -90,8 +92,8 @@ Config random_config(const Place& place, const std::string& weights, std::mt1993
   Config config;
   config.weights = weights;
   config.device = place.device;
-  config.euler_steps = dice() % 4 == 0 ? 4 : 1;
-  config.draws = dice() % 4 == 0 ? 3 : 1;
+  config.euler_steps = dice() % 4 == 0 ? kMostSteps : 1;
+  config.draws = dice() % 4 == 0 ? kMostDraws : 1;
   config.threads = static_cast<int>(1 + dice() % kMostThreads);
   config.max_width = dice() % 2 == 0 ? 160 : 1280;  // smaller than some frames: memory grows later
   config.max_height = config.max_width * 3 / 4;
@@ -111,7 +113,8 @@ Result<void> warm_up(const Place& place, const std::string& weights) {
   Config config;
   config.weights = weights;
   config.device = place.device;
-  config.euler_steps = 1;
+  config.euler_steps = kMostSteps;
+  config.draws = kMostDraws;
   config.threads = kMostThreads;
   auto estimator = Estimator::create(config);
   if (!estimator) return estimator.error();

@@ -1,21 +1,28 @@
 // PeakMemory: how much more memory than before something took, at its worst moment.
 #pragma once
 
-#include <sys/resource.h>
+#include <fstream>
+#include <string>
 
 namespace flowdlo::test {
 
-/// MB that the process' resident memory rose above its earlier peak while `work` ran.
+/// MB that /proc/self/status says of `what`: VmRSS now, VmHWM at most since it was last reset.
+inline double status_mb(const std::string& what) {
+  std::ifstream status("/proc/self/status");
+  for (std::string word; status >> word;) {
+    double kilobytes = 0;
+    if (word == what + ":" && status >> kilobytes) return kilobytes / 1000;
+  }
+  return 0;
+}
+
+/// MB of resident memory that `work` took at its worst moment, beyond what was there before it.
 template <class Work>
 double peak_growth_mb(const Work& work) {
-  const auto peak_mb = [] {
-    rusage usage{};
-    getrusage(RUSAGE_SELF, &usage);
-    return static_cast<double>(usage.ru_maxrss) / 1000;
-  };
-  const double before_mb = peak_mb();
+  std::ofstream("/proc/self/clear_refs") << "5";  // the peak starts again from what is there now
+  const double before_mb = status_mb("VmHWM");
   work();
-  return peak_mb() - before_mb;
+  return status_mb("VmHWM") - before_mb;
 }
 
 }  // namespace flowdlo::test
