@@ -1,6 +1,7 @@
 // `flowdlo estimate` and `flowdlo eval` on recordings.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include "flowdlo/frame_folder.hpp"
 #include "frame/temporary_folder.hpp"
@@ -44,6 +45,14 @@ TEST_F(RecordingCommand, TakesTheMaskFromATopic) {
   const auto outcome = run_estimate(scratch_.path(), {bag().string(), "--mask-topic", kMask});
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_EQ(estimate_json_of(scratch_.path(), "take1_000002")["status"], "ok");
+}
+
+TEST_F(RecordingCommand, PipeInARecordingsPlaceIsRefusedAtOnce) {
+  const auto pipe = scratch_.path() / "take2.bag";
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  const auto outcome = run_estimate(scratch_.path(), {pipe.string(), "--hsv", kBlue});
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_THAT(outcome.err, HasSubstr("take2.bag: expected a file, got a pipe"));
 }
 
 TEST_F(RecordingCommand, EvaluatesAvailabilityAndConsistency) {

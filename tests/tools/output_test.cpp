@@ -39,8 +39,8 @@ TEST_P(FullOutput, EndsWithOneAndASentence) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Output, FullOutput,
-                         testing::Values("--version", "--help", "estimate --help", "devices",
-                                         "devices --json", "weights info " FLOWDLO_WEIGHTS,
+                         testing::Values("--version", "--help", "estimate --help", "devices --json",
+                                         "weights info " FLOWDLO_WEIGHTS,
                                          "bench --frames 1 --draws 1 --steps 1 --device cpu"));
 
 TEST(Output, OfAnEstimateThatCannotBePrintedIsStillOnDisk) {
@@ -133,15 +133,6 @@ TEST(Output, ControlCharactersInArgumentsAreWrittenOut) {
   const auto usage = run_flowdlo(scratch.path(), {"fly\x1B[31m"});
   EXPECT_EQ(usage.exit_code, 2);
   EXPECT_THAT(usage.err, Not(HasSubstr("\x1B")));
-}
-
-TEST(Output, PipeInPlaceOfARecordingIsRefusedAtOnce) {
-  const TemporaryFolder scratch;
-  const auto pipe = scratch.path() / "take.bag";
-  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
-  const auto outcome = run_estimate(scratch.path(), {pipe.string()});
-  EXPECT_EQ(outcome.exit_code, 2);
-  EXPECT_THAT(outcome.err, HasSubstr("take.bag"));
 }
 
 TEST(Output, OfTwoRunsIntoOneFolderIsThatOfOne) {
