@@ -146,6 +146,7 @@ DeviceSurvey survey_devices(bool self_test) {
   } catch (const std::exception&) {
     return {.vulkan = {},
             .loader = guard::caught("survey_devices").message,
+            .advice = {},
             .auto_choice = "cpu"};  // needs no Vulkan, and no memory to be said
   }
 }
