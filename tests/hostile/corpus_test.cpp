@@ -1,6 +1,7 @@
 // The corpus is what its names say, and the same each time.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <set>
 #include <string>
 
