@@ -14,7 +14,8 @@ struct RingFrame {
   RingFrame() {
     for (int v = 0; v < kHeight; ++v) {
       for (int u = 0; u < kWidth; ++u) {
-        const float off_px = std::abs(std::hypot(u - 160.0F, v - 120.0F) - kRadius_px);
+        const float off_px = std::abs(
+            std::hypot(static_cast<float>(u) - 160, static_cast<float>(v) - 120) - kRadius_px);
         mask.push_back(off_px <= kHalfWidth_px ? 255 : 0);
         depth_m.push_back(off_px <= kHalfWidth_px ? kRope_m : kTable_m);
       }
@@ -26,7 +27,8 @@ struct RingFrame {
             .height = kHeight,
             .intrinsics = {300, 300, 160, 120},
             .depth_m = depth_m,
-            .mask = mask};
+            .mask = mask,
+            .color_bgr = {}};
   }
 
   static constexpr int kWidth = 320;
