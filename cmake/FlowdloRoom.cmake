@@ -15,18 +15,17 @@ if(FLOWDLO_SANITIZE)
                                                    -fno-omit-frame-pointer -fno-sanitize-recover=all)
   target_link_options(flowdlo_options INTERFACE -fsanitize=${FLOWDLO_SANITIZE})
 endif()
-if(FLOWDLO_FUZZ)  # counts what an input reaches; tests/fuzz links the fuzzer itself
-  target_compile_options(flowdlo_options INTERFACE -fsanitize=fuzzer-no-link
-                                                   -fno-sanitize-coverage=trace-cmp)
+# FLOWDLO_FUZZ: what an input reaches is counted; tests/fuzz links the fuzzer itself. Two properties of
+# a target decide what else is watched there:
+#   FLOWDLO_PARSES      it compares bytes with words of a format: the fuzzer sees both sides, and learns
+#                       the words. Geometry watched like that takes twice as long.
+#   FLOWDLO_ARITHMETIC  no input changes its course: nothing is watched.
+if(FLOWDLO_FUZZ)
+  target_compile_options(flowdlo_options INTERFACE
+    -fsanitize=fuzzer-no-link
+    $<$<NOT:$<BOOL:$<TARGET_PROPERTY:FLOWDLO_PARSES>>>:-fno-sanitize-coverage=trace-cmp>
+    $<$<BOOL:$<TARGET_PROPERTY:FLOWDLO_ARITHMETIC>>:-fno-sanitize=all>)
 endif()
-
-# flowdlo_parses(frame): what compares bytes with words of a format. The fuzzer sees both sides of
-# each comparison, and learns the words; arithmetic watched like that takes twice as long.
-function(flowdlo_parses target)
-  if(FLOWDLO_FUZZ)
-    target_compile_options(${target} PRIVATE -fsanitize-coverage=trace-cmp)
-  endif()
-endfunction()
 
 define_property(GLOBAL PROPERTY FLOWDLO_ROOMS BRIEF_DOCS "Object libraries that make up flowdlo")
 

@@ -1,6 +1,6 @@
 // replay FOLDER: one target over the seeds of a folder, without libFuzzer: for every build.
 #include <sys/resource.h>
-#include <unistd.h>
+#include <sys/time.h>
 
 #include <algorithm>
 #include <cstdio>
@@ -15,8 +15,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The ceilings of scripts/fuzz; a machine under load and the sanitizers' copies are within them.
-constexpr unsigned kMostSeconds = 20;
+// Of the processor, so that a machine under load changes nothing; the sanitizers' builds are within
+// both as well.
+constexpr time_t kMostSeconds = 20;
 constexpr long kMostMemory_kb = 1L << 20;
 
 std::vector<fs::path> files_of(const fs::path& folder) {
@@ -27,13 +28,19 @@ std::vector<fs::path> files_of(const fs::path& folder) {
   return files;
 }
 
+/// Ends the process when it has computed for that long from now on; 0: no longer.
+void end_after(time_t seconds) {
+  const itimerval limit{{0, 0}, {seconds, 0}};
+  setitimer(ITIMER_PROF, &limit, nullptr);
+}
+
 /// False where this input, or one before it, took more than it may.
 bool replay(const fs::path& file) {
   std::ifstream stream(file, std::ios::binary);
   const std::vector<char> bytes{std::istreambuf_iterator<char>(stream), {}};
-  alarm(kMostSeconds);
+  end_after(kMostSeconds);
   LLVMFuzzerTestOneInput(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size());
-  alarm(0);
+  end_after(0);
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
   return usage.ru_maxrss <= kMostMemory_kb;
