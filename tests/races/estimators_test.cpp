@@ -1,5 +1,5 @@
-// Estimators side by side, one a thread, on every back end. ThreadSanitizer watches: a race fails the
-// test although the bits are right.
+// Estimators side by side, one a thread, on every back end. ThreadSanitizer watches: a race fails
+// the test although the bits are right.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
