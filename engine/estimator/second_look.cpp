@@ -120,7 +120,8 @@ bool short_enough(const path::Traversals& paths, const Frame& frame) {  // a pix
 
 bool in_doubt(const Conditions& conditions) {
   const auto& first = conditions.hypotheses;
-  if (conditions.paths.strands > path::kMostRereadStrands) return false;
+  const path::Traversals& paths = conditions.paths;
+  if (paths.filtered || paths.strands > path::kMostRereadStrands) return false;
   return confidence(first.front().evidence, lead(first)) < kClear;
 }
 

@@ -13,8 +13,8 @@ namespace flowdlo::estimator {
 /// How sure the first reading has to be of its best hypothesis to be left alone, `confidence`.
 inline constexpr float kClear = 0.7F;
 
-/// Whether it is less sure than that, and another one may be surer: a tangle of more strands than
-/// path::kMostRereadStrands is none that is read again.
+/// Whether it is less sure than that, and another one may be surer: neither noise nor a tangle of
+/// more strands than path::kMostRereadStrands is read again.
 [[nodiscard]] bool in_doubt(const Conditions& conditions);
 
 struct SecondLook {

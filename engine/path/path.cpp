@@ -145,6 +145,7 @@ Result<Traversals> trace_graph(Graph& graph, const Region& region, const Frame& 
 
   Traversals result;
   result.rope_width_px = strands.width_px;
+  result.filtered = region.filtered;
   result.strands = static_cast<int>(strands.list.size());
   result.ranked = ranked_paths(strands, region, frame, config);
   if (result.ranked.empty()) {

@@ -27,6 +27,7 @@ struct Traversals {
   std::vector<Path> ranked;
   float margin = 1;         ///< in [0, 1]: 0 when the runner-up ties, 1 when nothing comes near
   float rope_width_px = 0;  ///< median width of the mask across the skeleton
+  bool filtered = false;    ///< the mask is noise or texture; what a filter left of it was read
   int strands = 0;          ///< stretches between crossings and ends that the mask was read as
 };
 

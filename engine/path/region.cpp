@@ -284,7 +284,8 @@ Result<Region> clean(const Frame& frame) {
   region.offset_px = {box.x - kBorderPx, box.y - kBorderPx};
   auto strokes = strokes_of(crop(frame, box), {frame.width, frame.height});
   if (!strokes) return strokes.error();
-  region.mask = *std::move(strokes);
+  region.mask = std::move(strokes->mask);
+  region.filtered = strokes->filtered;
   erase_fringes(region.mask);
   if (erase_specks(region.mask, 0) == 0) {
     return Error{ErrorCode::kNoPath, "path: expected a stroke, got only specks of fewer than " +

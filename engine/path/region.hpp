@@ -12,11 +12,12 @@
 namespace flowdlo::path {
 
 struct Region {
-  cv::Point offset_px;  ///< image position of the crop's (0, 0)
-  cv::Mat mask;         ///< [h, w] u8, 0 or 1, with at least two empty pixels on every side
-  cv::Mat distance_px;  ///< [h, w] f32, distance to the nearest empty pixel
-  cv::Mat seams;        ///< [h, w] u8, 1 where the mask was cut between strands; empty: nowhere
-  float width_px = 0;   ///< the rope's width, a first guess
+  cv::Point offset_px;    ///< image position of the crop's (0, 0)
+  cv::Mat mask;           ///< [h, w] u8, 0 or 1, with at least two empty pixels on every side
+  cv::Mat distance_px;    ///< [h, w] f32, distance to the nearest empty pixel
+  cv::Mat seams;          ///< [h, w] u8, 1 where the mask was cut between strands; empty: nowhere
+  float width_px = 0;     ///< the rope's width, a first guess
+  bool filtered = false;  ///< as Strokes::filtered
 };
 
 /// The rope's width where the distance to the nearest empty pixel is `distance_px`: 2 d - 1 for

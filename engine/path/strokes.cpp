@@ -40,13 +40,13 @@ std::int64_t stroke_length_px(const cv::Mat& mask) {
   return border / 2;
 }
 
-Result<cv::Mat> strokes_of(cv::Mat mask, const cv::Size& image) {
+Result<Strokes> strokes_of(cv::Mat mask, const cv::Size& image) {
   const std::int64_t most = std::int64_t{kMostStrokeSides} * (image.width + image.height);
   const std::int64_t given = stroke_length_px(mask);
-  if (given <= most) return mask;
+  if (given <= most) return Strokes{std::move(mask)};
   for (const int side_px : kFilters_px) {
     cv::Mat smooth = majority(mask, side_px);
-    if (stroke_length_px(smooth) <= most) return smooth;
+    if (stroke_length_px(smooth) <= most) return Strokes{std::move(smooth), true};
   }
   return Error{
       ErrorCode::kNoPath,

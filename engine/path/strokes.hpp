@@ -12,10 +12,15 @@ namespace flowdlo::path {
 /// its outermost pixels 0.
 [[nodiscard]] std::int64_t stroke_length_px(const cv::Mat& mask);
 
+struct Strokes {
+  cv::Mat mask;           ///< [h, w] u8, 0 or 1
+  bool filtered = false;  ///< the mask given is noise or texture, and this is what a filter left
+};
+
 /// `mask` as it is where one rope can have made it in an image of that size. Otherwise after a
 /// majority filter, the smallest that leaves a mask which one rope can have made: noise goes, a
 /// rope under it stays. Fails with kNoPath where none does. One pass over the mask, four with
 /// filters.
-[[nodiscard]] Result<cv::Mat> strokes_of(cv::Mat mask, const cv::Size& image);
+[[nodiscard]] Result<Strokes> strokes_of(cv::Mat mask, const cv::Size& image);
 
 }  // namespace flowdlo::path

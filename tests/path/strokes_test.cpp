@@ -40,7 +40,8 @@ TEST(Strokes, OfARopeAreTheMaskItself) {
   const cv::Mat mask = rope(9);
   const auto strokes = path::strokes_of(mask, {640, 480});
   ASSERT_TRUE(strokes);
-  EXPECT_EQ(cv::countNonZero(*strokes != mask), 0);
+  EXPECT_EQ(cv::countNonZero(strokes->mask != mask), 0);
+  EXPECT_FALSE(strokes->filtered);
 }
 
 TEST(Strokes, OfARopeUnderNoiseAreTheRopes) {
@@ -49,9 +50,10 @@ TEST(Strokes, OfARopeUnderNoiseAreTheRopes) {
   ASSERT_GT(path::stroke_length_px(mask), kMost) << "else nothing is filtered";
   const auto strokes = path::strokes_of(mask, {640, 480});
   ASSERT_TRUE(strokes) << strokes.error().message;
-  EXPECT_LE(path::stroke_length_px(*strokes), kMost);
+  EXPECT_TRUE(strokes->filtered);
+  EXPECT_LE(path::stroke_length_px(strokes->mask), kMost);
   const cv::Mat core = rope(9);
-  EXPECT_GT(cv::countNonZero(*strokes & core), 0.95 * cv::countNonZero(core));
+  EXPECT_GT(cv::countNonZero(strokes->mask & core), 0.95 * cv::countNonZero(core));
 }
 
 TEST(Strokes, OfATextureAreNoPathAndSaySo) {

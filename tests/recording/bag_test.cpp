@@ -86,7 +86,7 @@ TEST_F(BagTest, MessageOfAnotherTypeIsRefused) {
 }
 
 TEST_F(BagTest, FileThatIsNoBagIsRefused) {
-  EXPECT_THAT(refusal(), HasSubstr("cannot be read"));
+  EXPECT_THAT(refusal(), HasSubstr("expected a file, found none"));
   for (const char* text : {"", "hello", "#ROSBAG V1.2\n", "#ROSBAG V2.0\n"}) {
     write_text(file(), text);
     EXPECT_THAT(refusal(), HasSubstr("expected a")) << text;

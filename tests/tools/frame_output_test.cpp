@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
@@ -91,14 +92,18 @@ class FullDisk : public test::FailingCalls {
   int openat(int folder, const char* name, int flags, mode_t mode) const override {
     return (flags & O_CREAT) == 0 ? SystemCalls::openat(folder, name, flags, mode) : full();
   }
-  int mkdirat(int, const char*, mode_t) const override { return full(); }
+  int mkdirat(int folder, const char* name, mode_t) const override {
+    const bool there = ::faccessat(folder, name, F_OK, 0) == 0;
+    return there ? failed(EEXIST) : full();
+  }
   ssize_t write(int, const void*, std::size_t) const override { return full(); }
 
  private:
-  static int full() {
-    errno = ENOSPC;
+  static int failed(int code) {
+    errno = code;
     return -1;
   }
+  static int full() { return failed(ENOSPC); }
 };
 
 TEST_F(FrameOutput, NoResultOfAnEarlierRunStandsBesideAFullDisk) {
@@ -106,12 +111,12 @@ TEST_F(FrameOutput, NoResultOfAnEarlierRunStandsBesideAFullDisk) {
   const auto done = write(nullptr, FullDisk());
   ASSERT_FALSE(done);
   EXPECT_THAT(done.error().message, testing::HasSubstr("No space left on device; make space"));
-  EXPECT_TRUE(files().empty());
+  EXPECT_THAT(files(), testing::IsEmpty());
 
   ASSERT_TRUE(write());
   EXPECT_FALSE(write_failure(out(), {ErrorCode::kNoPath, "no stroke"}, kProvenance,
                              Durability::kSynced, FullDisk()));
-  EXPECT_TRUE(files().empty());
+  EXPECT_THAT(files(), testing::IsEmpty());
 }
 
 TEST_F(FrameOutput, FailingAtAnyCallLeavesNoCurveBesideAnotherRunsStatus) {
@@ -156,7 +161,7 @@ TEST_F(FrameOutput, TensorsOfTheWrongShapeWriteNothing) {
   const auto done = write(&empty);
   ASSERT_FALSE(done);
   EXPECT_EQ(done.error().code, ErrorCode::kInternal);
-  EXPECT_TRUE(files().empty());
+  EXPECT_THAT(files(), testing::IsEmpty());
 }
 
 TEST_F(FrameOutput, FileInPlaceOfTheFolderIsAnIoError) {
