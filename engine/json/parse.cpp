@@ -11,15 +11,21 @@ namespace {
 
 using Kind = Value::Kind;
 
+Value value_of(Kind kind, double number = 0, bool whole = false) {
+  Value value;
+  value.kind = kind;
+  value.number = number;
+  value.whole = whole;
+  return value;
+}
+
 /// Builds the tree from what nlohmann's parser reports.
 class Builder final : public nlohmann::json_sax<nlohmann::json> {
  public:
   explicit Builder(Parsed& parsed) : parsed_(parsed) {}
 
   bool null() override { return put({}); }
-  bool boolean(bool value) override {
-    return put({.kind = Kind::kBoolean, .number = value ? 1.0 : 0.0});
-  }
+  bool boolean(bool value) override { return put(value_of(Kind::kBoolean, value ? 1.0 : 0.0)); }
   bool number_integer(std::int64_t value) override {
     return number(static_cast<double>(value), true);
   }
@@ -28,7 +34,9 @@ class Builder final : public nlohmann::json_sax<nlohmann::json> {
   }
   bool number_float(double value, const std::string&) override { return number(value, false); }
   bool string(std::string& value) override {
-    return put({.kind = Kind::kString, .string = std::move(value)});
+    Value text = value_of(Kind::kString);
+    text.string = std::move(value);
+    return put(std::move(text));
   }
   bool binary(nlohmann::json::binary_t&) override { return false; }  // no JSON text has any
 
@@ -53,18 +61,16 @@ class Builder final : public nlohmann::json_sax<nlohmann::json> {
   }
 
  private:
-  bool number(double value, bool whole) {
-    return put({.kind = Kind::kNumber, .whole = whole, .number = value});
-  }
+  bool number(double value, bool whole) { return put(value_of(Kind::kNumber, value, whole)); }
 
   bool open(Kind kind) {
     ++depth_;
     parsed_.depth = std::max(parsed_.depth, depth_);
     if (depth_ <= kDeepest) {
-      open_.push_back({{}, {.kind = kind}});
+      open_.push_back({{}, value_of(kind)});
       return true;
     }
-    return depth_ > kDeepest + 1 || add({.kind = kind});
+    return depth_ > kDeepest + 1 || add(value_of(kind));
   }
 
   bool close() {

@@ -16,9 +16,9 @@ struct Value {
   Kind kind = Kind::kNull;
   bool whole = false;  ///< of a number: written without point and exponent
   double number = 0;   ///< of a boolean 0 or 1
-  std::string string = {};
-  std::vector<Value> elements = {};  ///< of an array
-  std::vector<Member> members = {};  ///< of an object, by key, each key once: as given last
+  std::string string;
+  std::vector<Value> elements;  ///< of an array
+  std::vector<Member> members;  ///< of an object, by key, each key once: as given last
 
   [[nodiscard]] bool is_number() const { return kind == Kind::kNumber; }
   [[nodiscard]] bool is_string() const { return kind == Kind::kString; }
