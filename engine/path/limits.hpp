@@ -28,8 +28,8 @@ inline constexpr int kMostSegments = 256;
 /// that crosses itself 20 times has 41; over a hundred `wide` scenes the most is 31.
 inline constexpr int kMostRereadStrands = 41;
 
-/// Ends at one crossing that may pass along a strand or turn back there; over a hundred `wide` scenes
-/// and all readings of them the most is 68.
+/// Ends at one crossing that may pass along a strand or turn back there; over a hundred `wide`
+/// scenes and all readings of them the most is 68.
 inline constexpr int kMostAtCrossing = 96;
 
 }  // namespace flowdlo::path

@@ -52,8 +52,8 @@ struct OneRope {
   std::vector<Doubt> doubts;  ///< empty: none of this lowers `confidence`
 };
 
-/// Milliseconds of each stage of one call. With Config::threads = 1 the stages sum to total_ms; with
-/// more threads they exceed it by what of readings_ms ran beside mask_field_ms and model_ms.
+/// Milliseconds of each stage of one call. With Config::threads = 1 the stages sum to total_ms;
+/// with more threads they exceed it by what of readings_ms ran beside mask_field_ms and model_ms.
 struct Timings {
   double evidence_ms = 0;    ///< Sec. 3.2
   double path_ms = 0;        ///< Sec. 3.3, mask to ordered path
