@@ -7,7 +7,6 @@
 #endif
 
 #include <algorithm>
-#include <future>
 #include <vector>
 
 #include "estimator/candidates.hpp"
@@ -27,6 +26,7 @@
 #include "guard/guarded.hpp"
 #include "prior/prior.hpp"
 #include "threads/aside.hpp"
+#include "threads/pool.hpp"
 #include "weights/kept_file.hpp"
 #include "weights/weights.hpp"
 
@@ -151,6 +151,7 @@ struct FLOWDLO_HIDDEN Estimator::Impl {
   flow::WeightsSource weights;
   std::string device;
   flow::Sampler sampler;
+  threads::Pool pool{config.threads};  // for what runs beside the model
   pid_t process = ::getpid();  // in a process forked from this one threads and device are missing
 
   static Result<std::unique_ptr<Impl>> create(const Config& config);
@@ -158,8 +159,8 @@ struct FLOWDLO_HIDDEN Estimator::Impl {
   Result<flow::Prediction> sample(const flow::SampleInput& input);
   [[nodiscard]] weights::PriorKind prior_kind() const;
   [[nodiscard]] bool calibrated() const;
-  [[nodiscard]] std::future<estimator::SecondLook> look_again(
-      const estimator::Conditions& conditions, const Frame& frame, double& readings_ms) const;
+  [[nodiscard]] std::vector<path::Reading> readings(const estimator::Conditions& conditions,
+                                                    const Frame& frame) const;
   [[nodiscard]] std::vector<int> assign(const std::vector<estimator::Hypothesis>& hypotheses) const;
 };
 
@@ -180,8 +181,8 @@ Result<std::unique_ptr<Estimator::Impl>> Estimator::Impl::create(const Config& w
   const auto weights = source_of(*loaded);
   auto sampler = flow::Sampler::create(weights, back_end->make_program, sampler_config(config));
   if (!sampler) return sampler.error();
-  return std::make_unique<Impl>(
-      Impl{config, metadata, weights, back_end->name, *std::move(sampler)});
+  return std::unique_ptr<Impl>(  // an aggregate, which Clang 14 makes by braces only
+      new Impl{config, metadata, weights, back_end->name, *std::move(sampler)});
 }
 
 /// The model's predictions. Where the device was left to us, a lost one is replaced by the CPU.
@@ -223,6 +224,13 @@ bool Estimator::Impl::calibrated() const {
          metadata.variant.prior_kind == weights::PriorKind::kRefined;
 }
 
+/// Of the mask beside the first; none for the thesis' gate, which knows no doubt.
+std::vector<path::Reading> Estimator::Impl::readings(const estimator::Conditions& conditions,
+                                                     const Frame& frame) const {
+  if (!calibrated()) return {};
+  return estimator::worth_reading(conditions, frame);
+}
+
 /// [draws] the hypothesis that conditions each.
 std::vector<int> Estimator::Impl::assign(
     const std::vector<estimator::Hypothesis>& hypotheses) const {
@@ -230,21 +238,6 @@ std::vector<int> Estimator::Impl::assign(
   if (calibrated()) return estimator::spread_draws(count, config.draws);
   const float margin = estimator::margin(estimator::lead(hypotheses));
   return estimator::assign_draws(count, margin, config.draws);
-}
-
-/// Beside the model, where there is more than one thread and something to do; the frame as it was
-/// read for the thesis' gate, which knows no doubt.
-std::future<estimator::SecondLook> Estimator::Impl::look_again(
-    const estimator::Conditions& conditions, const Frame& frame, double& readings_ms) const {
-  const bool aside = calibrated() && config.threads != 1 && estimator::in_doubt(conditions);
-  return threads::aside(aside, [&, calibrated = calibrated()] {
-    if (!calibrated) return estimator::SecondLook{1, conditions.hypotheses};
-    estimator::Stopwatch watch;
-    auto look = estimator::look_again(conditions, frame, config.rope_length_m, prior_kind(),
-                                      config.threads);
-    watch.lap(readings_ms);
-    return look;
-  });
 }
 
 Result<Estimate> Estimator::Impl::estimate(const Frame& frame, Tensors* tensors) {
@@ -255,7 +248,8 @@ Result<Estimate> Estimator::Impl::estimate(const Frame& frame, Tensors* tensors)
       estimator::gather(frame, config.rope_length_m, prior_kind(), timings);  // Sec. 3.2, 3.3
   estimator::Stopwatch stage;
   if (!conditions) return conditions.error();
-  auto looking = look_again(*conditions, frame, timings.readings_ms);
+  estimator::Rereading rereading(pool, readings(*conditions, frame), *conditions, frame,
+                                 config.rope_length_m, prior_kind());
 
   const auto& hypotheses = conditions->hypotheses;
   const auto assigned = assign(hypotheses);
@@ -278,7 +272,8 @@ Result<Estimate> Estimator::Impl::estimate(const Frame& frame, Tensors* tensors)
   if (!prediction) return prediction.error();
   timings.device_ms = sampler.stage_times_ms();
   stage.lap(timings.model_ms);
-  const estimator::SecondLook look = looking.get();
+  const estimator::SecondLook look = rereading.finish();
+  timings.readings_ms = rereading.duration_ms();
   stage.skip();  // readings_ms has it
 
   const gate::DilatedMask mask(frame);

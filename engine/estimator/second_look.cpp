@@ -1,18 +1,17 @@
 #include "estimator/second_look.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <cstddef>
 #include <new>
+#include <utility>
 
 #include "estimator/confidence.hpp"
+#include "gate/one_rope.hpp"
 #include "gate/tube_score.hpp"
 #include "geometry/polyline.hpp"
 #include "guard/guarded.hpp"
 #include "path/limits.hpp"
-#include "path/readings.hpp"
-#include "threads/team.hpp"
 
 namespace flowdlo::estimator {
 namespace {
@@ -20,10 +19,6 @@ namespace {
 constexpr std::size_t kOfEach = 2;  // hypotheses of a further reading
 constexpr double kSamePlace = 2;    // rope radii between the mean nodes of one and the same
 constexpr double kOddsScore = 1;    // score that makes a hypothesis e times as likely
-
-/// Length of a path that is worth another reading, in sums of the image's two sides: over a hundred
-/// `wide` scenes the most is 1.8. Each reading lifts paths as long as the first one's.
-constexpr int kMostSides = 3;
 
 using Reading = std::vector<Hypothesis>;  // what one reading brought forth, best first
 
@@ -43,22 +38,6 @@ Reading read_as(path::Reading kind, const Conditions& conditions, const Frame& f
   }
   if (reading->size() > kOfEach) reading->resize(kOfEach);
   return *std::move(reading);
-}
-
-/// What each reading makes of the frame, those that fail left out.
-std::vector<Reading> read(const std::vector<path::Reading>& kinds, const Conditions& conditions,
-                          const Frame& frame, double rope_length_m, weights::PriorKind prior_kind,
-                          int threads) {
-  std::vector<Reading> readings(kinds.size());
-  std::atomic<std::size_t> next = 0;
-  const int workers = std::min(threads::count(threads), static_cast<int>(kinds.size()));
-  threads::work_together(std::max(workers, 1), [&](int) {
-    for (std::size_t i = next++; i < kinds.size(); i = next++) {
-      readings[i] = read_as(kinds[i], conditions, frame, rope_length_m, prior_kind);
-    }
-  });
-  std::erase_if(readings, [](const Reading& reading) { return reading.empty(); });
-  return readings;
 }
 
 bool same_place(const Hypothesis& a, const Hypothesis& b, double radius_m) {
@@ -110,35 +89,64 @@ void count_votes(const std::vector<Reading>& readings, double radius_m,
   }
 }
 
-bool short_enough(const path::Traversals& paths, const Frame& frame) {  // a pixel a sample
-  const auto most =
-      static_cast<std::size_t>(kMostSides) * static_cast<std::size_t>(frame.width + frame.height);
-  return paths.ranked.front().points_px.size() <= most;
+/// Of a hypothesis that is right this holds, whatever the mask merges.
+bool shaped_like_a_rope(const Hypothesis& hypothesis, const Frame& frame, float width_px) {
+  const auto doubts = gate::one_rope(hypothesis.prior.nodes, frame, width_px).doubts;
+  return std::find(doubts.begin(), doubts.end(), Doubt::kNoRope) == doubts.end();
 }
 
 }  // namespace
 
-bool in_doubt(const Conditions& conditions) {
+std::vector<path::Reading> worth_reading(const Conditions& conditions, const Frame& frame) {
   const auto& first = conditions.hypotheses;
   const path::Traversals& paths = conditions.paths;
-  if (paths.filtered || paths.strands > path::kMostRereadStrands) return false;
-  return confidence(first.front().evidence, lead(first)) < kClear;
+  if (confidence(first.front().evidence, lead(first)) >= kClear) return {};
+  if (paths.filtered || paths.strands > path::kMostRereadStrands) return {};
+  const auto sides = static_cast<std::size_t>(frame.width + frame.height);
+  if (paths.ranked.front().points_px.size() > path::kMostRereadSides * sides) return {};
+  if (!shaped_like_a_rope(first.front(), frame, paths.rope_width_px)) return {};
+  return path::further_readings(frame, paths.rope_width_px);
 }
 
-SecondLook look_again(const Conditions& conditions, const Frame& frame, double rope_length_m,
-                      weights::PriorKind kind, int threads) {
-  const auto& first = conditions.hypotheses;
-  const float width_px = conditions.paths.rope_width_px;
-  std::vector<path::Reading> kinds;
-  if (in_doubt(conditions) && short_enough(conditions.paths, frame))
-    kinds = path::further_readings(frame, width_px);
-  auto readings = read(kinds, conditions, frame, rope_length_m, kind, threads);
-  readings.insert(readings.begin(), first);
-  const auto radius_m = static_cast<double>(
-      gate::tube_radius_m(first.front().prior.nodes, frame.intrinsics, width_px));
+Rereading::Rereading(threads::Pool& pool, std::vector<path::Reading> kinds,
+                     const Conditions& conditions, const Frame& frame, double rope_length_m,
+                     weights::PriorKind prior_kind)
+    : kinds_(std::move(kinds)),
+      conditions_(conditions),
+      frame_(frame),
+      rope_length_m_(rope_length_m),
+      prior_kind_(prior_kind),
+      reads_(kinds_.size()),
+      beside_(pool, static_cast<int>(kinds_.size()),
+              [this](int which) { read(static_cast<std::size_t>(which)); }) {}
+
+void Rereading::read(std::size_t which) {
+  Read& result = reads_[which];
+  result.begin = Clock::now();
+  result.hypotheses = read_as(kinds_[which], conditions_, frame_, rope_length_m_, prior_kind_);
+  result.end = Clock::now();
+}
+
+SecondLook Rereading::finish() {
+  beside_.finish();
+  std::vector<Reading> readings{conditions_.hypotheses};
+  for (Read& read : reads_) {
+    if (!read.hypotheses.empty()) readings.push_back(std::move(read.hypotheses));
+  }
+  const auto radius_m = static_cast<double>(gate::tube_radius_m(
+      readings.front().front().prior.nodes, frame_.intrinsics, conditions_.paths.rope_width_px));
   SecondLook look{static_cast<int>(readings.size()), pooled(readings, radius_m)};
   count_votes(readings, radius_m, look.hypotheses);
   return look;
+}
+
+double Rereading::duration_ms() const {
+  if (reads_.empty()) return 0;
+  const auto first = std::min_element(
+      reads_.begin(), reads_.end(), [](const Read& a, const Read& b) { return a.begin < b.begin; });
+  const auto last = std::max_element(reads_.begin(), reads_.end(),
+                                     [](const Read& a, const Read& b) { return a.end < b.end; });
+  return std::chrono::duration<double, std::milli>(last->end - first->begin).count();
 }
 
 }  // namespace flowdlo::estimator

@@ -2,10 +2,14 @@
 // how many of them agree.
 #pragma once
 
+#include <chrono>
+#include <optional>
 #include <vector>
 
 #include "estimator/conditions.hpp"
 #include "flowdlo/frame.hpp"
+#include "path/readings.hpp"
+#include "threads/pool.hpp"
 #include "weights/variant.hpp"
 
 namespace flowdlo::estimator {
@@ -13,9 +17,11 @@ namespace flowdlo::estimator {
 /// How sure the first reading has to be of its best hypothesis to be left alone, `confidence`.
 inline constexpr float kClear = 0.7F;
 
-/// Whether it is less sure than that, and another one may be surer: neither noise nor a tangle of
-/// more strands than path::kMostRereadStrands is read again.
-[[nodiscard]] bool in_doubt(const Conditions& conditions);
+/// The readings of the frame that `conditions` are of which may be surer than the first one: none
+/// where that one is clear, and none where another would be no better: of noise, of what has no
+/// rope's shape, of a tangle beyond path::kMostRereadStrands or path::kMostRereadSides.
+[[nodiscard]] std::vector<path::Reading> worth_reading(const Conditions& conditions,
+                                                       const Frame& frame);
 
 struct SecondLook {
   int readings = 1;                      ///< of the mask, the first among them
@@ -23,9 +29,38 @@ struct SecondLook {
                                          ///< then others that run elsewhere, best first
 };
 
-/// At most `threads` readings at a time; 0: one for each core. `conditions` are of the frame.
-/// Readings that fail are left out. Without doubt the hypotheses are the conditions'.
-[[nodiscard]] SecondLook look_again(const Conditions& conditions, const Frame& frame,
-                                    double rope_length_m, weights::PriorKind kind, int threads);
+/// Further readings under way on the threads of a pool. What it is made of has to outlive it.
+class Rereading {
+ public:
+  Rereading(threads::Pool& pool, std::vector<path::Reading> kinds, const Conditions& conditions,
+            const Frame& frame, double rope_length_m, weights::PriorKind prior_kind);
+
+  /// What all readings hold. Those that fail are left out; without any the hypotheses are the
+  /// conditions'. Once.
+  [[nodiscard]] SecondLook finish();
+
+  /// From the first reading's begin to the last one's end, once finished; 0 without any.
+  [[nodiscard]] double duration_ms() const;
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  /// One reading's hypotheses, best first; none where it fails.
+  struct Read {
+    std::vector<Hypothesis> hypotheses;
+    Clock::time_point begin;
+    Clock::time_point end;
+  };
+
+  void read(std::size_t which);
+
+  const std::vector<path::Reading> kinds_;
+  const Conditions& conditions_;
+  const Frame frame_;
+  const double rope_length_m_;
+  const weights::PriorKind prior_kind_;
+  std::vector<Read> reads_;  // one a kind
+  threads::Beside beside_;   // last: it ends first
+};
 
 }  // namespace flowdlo::estimator

@@ -28,6 +28,10 @@ inline constexpr int kMostSegments = 256;
 /// that crosses itself 20 times has 41; over a hundred `wide` scenes the most is 31.
 inline constexpr int kMostRereadStrands = 41;
 
+/// Length of a first reading's path, in sums of the image's two sides, that is followed by others:
+/// each lifts paths as long. Over a hundred `wide` scenes the most is 1.8.
+inline constexpr int kMostRereadSides = 3;
+
 /// Ends at one crossing that may pass along a strand or turn back there; over a hundred `wide`
 /// scenes and all readings of them the most is 68.
 inline constexpr int kMostAtCrossing = 96;

@@ -57,7 +57,10 @@ std::optional<GateSample> measure(const synth::SyntheticFrame& scene, flow::Samp
   sample.easy = scene.meta.easy();
   sample.hard = scene.meta.hard();
   sample.truth = eval::canonical(scene.truth());
-  const auto look = estimator::look_again(*conditions, frame, rope_length_m, kind, 1);
+  threads::Pool alone(1);
+  const auto look = estimator::Rereading(alone, estimator::worth_reading(*conditions, frame),
+                                         *conditions, frame, rope_length_m, kind)
+                        .finish();
   sample.candidates =
       estimator::list_candidates(look, conditions->paths.rope_width_px, drawn->prediction,
                                  drawn->reports, drawn->assigned, frame, rope_length_m);

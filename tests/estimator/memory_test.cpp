@@ -6,12 +6,15 @@
 #include <string>
 
 #include "flowdlo/estimator.hpp"
+#include "support/ring_frame.hpp"
 
 namespace flowdlo {
 namespace {
 
 constexpr int kFirst = 3;  // times until drivers and the C library have what they keep
 constexpr int kFurther = 6;
+constexpr int kFrames = 40;
+constexpr std::size_t kEachFrame_bytes = 400;   // a third of what OpenCV keeps for a thread
 constexpr std::size_t kEach_bytes = 16 * 1024;  // far below what any of an estimator's parts takes
 
 /// All that is allocated and not freed, of every thread. Resident memory is no measure: the C
@@ -35,6 +38,29 @@ TEST_P(Memory, OfEstimatorsThatAreGoneIsFree) {
     ASSERT_TRUE(made) << made.error().message;
   }
   EXPECT_LT(in_use_bytes(), before + kFurther * kEach_bytes);
+}
+
+/// Of a frame in doubt, whose readings run on threads: libraries keep data for every thread that
+/// ever called them.
+TEST_P(Memory, OfFramesThatAreDoneIsFree) {
+  if (in_use_bytes() == 0) GTEST_SKIP() << "another allocator is in place";
+  const testing::RingFrame ring;
+  auto made = Estimator::create({.weights = FLOWDLO_WEIGHTS,
+                                 .device = GetParam(),
+                                 .euler_steps = 1,
+                                 .draws = 1,
+                                 .gate = GateChoice::kCalibrated,
+                                 .threads = 3});
+  if (!made && made.error().code == ErrorCode::kNoDevice) GTEST_SKIP() << made.error().message;
+  ASSERT_TRUE(made) << made.error().message;
+  std::size_t before = 0;
+  for (int i = 0; i < kFirst + kFrames; ++i) {
+    if (i == kFirst) before = in_use_bytes();
+    const auto estimate = made->estimate(ring.frame());
+    ASSERT_TRUE(estimate) << estimate.error().message;
+    ASSERT_GT(estimate->readings, 1);
+  }
+  EXPECT_LT(in_use_bytes(), before + kFrames * kEachFrame_bytes);
 }
 
 INSTANTIATE_TEST_SUITE_P(On, Memory, ::testing::Values("cpu", "vulkan"),

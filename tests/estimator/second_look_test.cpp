@@ -12,7 +12,15 @@ namespace {
 class LookAgain : public ::testing::Test {
  protected:
   [[nodiscard]] estimator::SecondLook look(int threads = 1) const {
-    return estimator::look_again(conditions_, frame_, 0, weights::PriorKind::kRefined, threads);
+    threads::Pool pool(threads);
+    return look(worth_reading(), pool);
+  }
+  [[nodiscard]] estimator::SecondLook look_all_ways(int threads = 1) const {
+    threads::Pool pool(threads);
+    return look(path::further_readings(frame_, conditions_.paths.rope_width_px), pool);
+  }
+  [[nodiscard]] std::vector<path::Reading> worth_reading() const {
+    return estimator::worth_reading(conditions_, frame_);
   }
   /// A closed ring's ends are a guess: there is always doubt.
   void cast_doubt() { conditions_.hypotheses.front().evidence.ring = true; }
@@ -23,13 +31,21 @@ class LookAgain : public ::testing::Test {
     for (Point3& node : conditions_.hypotheses.front().prior.nodes) node.y += shift_m;
   }
 
+ private:
+  [[nodiscard]] estimator::SecondLook look(const std::vector<path::Reading>& kinds,
+                                           threads::Pool& pool) const {
+    return estimator::Rereading(pool, kinds, conditions_, frame_, 0, weights::PriorKind::kRefined)
+        .finish();
+  }
+
+ protected:
   testing::WaveFrame wave_;
   Frame frame_ = wave_.frame();
   estimator::Conditions conditions_ = testing::gathered(frame_);
 };
 
 TEST_F(LookAgain, AClearFrameIsReadOnce) {
-  EXPECT_FALSE(estimator::in_doubt(conditions_));
+  EXPECT_TRUE(worth_reading().empty());
   const auto once = look();
   EXPECT_EQ(once.readings, 1);
   ASSERT_EQ(once.hypotheses.size(), conditions_.hypotheses.size());
@@ -39,7 +55,7 @@ TEST_F(LookAgain, AClearFrameIsReadOnce) {
 
 TEST_F(LookAgain, WhereThereIsDoubtOtherReadingsSayWhatTheyHold) {
   cast_doubt();
-  EXPECT_TRUE(estimator::in_doubt(conditions_));
+  EXPECT_FALSE(worth_reading().empty());
   const auto again = look();
   EXPECT_GE(again.readings, 4);
   EXPECT_NEAR(again.hypotheses.front().votes, 1, 1e-5);
@@ -54,14 +70,21 @@ TEST_F(LookAgain, WhereThereIsDoubtOtherReadingsSayWhatTheyHold) {
 TEST_F(LookAgain, ATangleIsReadOnceHoweverDoubtful) {
   cast_doubt();
   conditions_.paths.strands = path::kMostRereadStrands + 1;
-  EXPECT_FALSE(estimator::in_doubt(conditions_));
+  EXPECT_TRUE(worth_reading().empty());
   EXPECT_EQ(look().readings, 1);
+}
+
+TEST_F(LookAgain, WhatHasNoRopesShapeIsReadOnceHoweverDoubtful) {
+  cast_doubt();
+  auto& nodes = conditions_.hypotheses.front().prior.nodes;
+  for (std::size_t i = 0; i < kNodes; ++i) nodes[i] = nodes[i / 16];  // a stub
+  EXPECT_TRUE(worth_reading().empty());
 }
 
 TEST_F(LookAgain, WhatTheFirstReadingMissedComesBehindWithTheVotesOfTheOthers) {
   const auto right = conditions_.hypotheses.front().prior.nodes;
   lead_astray(0.2F);
-  const auto again = look();
+  const auto again = look_all_ways();
   ASSERT_GE(again.hypotheses.size(), 2U);
   const auto others = static_cast<float>(again.readings - 1);
   EXPECT_NEAR(again.hypotheses[0].votes, 1 / (others + 1), 1e-5);
@@ -74,8 +97,8 @@ TEST_F(LookAgain, WhatTheFirstReadingMissedComesBehindWithTheVotesOfTheOthers) {
 
 TEST_F(LookAgain, NumberOfThreadsChangesNothing) {
   lead_astray(0.2F);
-  const auto one = look(1);
-  const auto four = look(4);
+  const auto one = look_all_ways(1);
+  const auto four = look_all_ways(4);
   ASSERT_EQ(one.hypotheses.size(), four.hypotheses.size());
   for (std::size_t h = 0; h < one.hypotheses.size(); ++h) {
     EXPECT_EQ(one.hypotheses[h].votes, four.hypotheses[h].votes);

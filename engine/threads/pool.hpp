@@ -1,0 +1,64 @@
+// Pool: threads that outlive a frame, for work beside what their owner does. Libraries keep data
+// for every thread that ever called them, OpenCV 1.2 kB for good: threads of a frame's own would
+// cost a robot gigabytes a day.
+#pragma once
+
+#include <condition_variable>
+#include <exception>
+#include <functional>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+namespace flowdlo::threads {
+
+/// Not to be destroyed in a process that was forked from its own, where the threads are missing.
+class Pool {
+ public:
+  /// count(threads) - 1 threads beside the caller's, or as many as can be started.
+  explicit Pool(int threads);
+  ~Pool();
+  Pool(const Pool&) = delete;
+  Pool& operator=(const Pool&) = delete;
+
+ private:
+  friend class Beside;
+
+  void serve();
+
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  class Beside* at_ = nullptr;  // what is worked on; guarded by mutex_, as all that it holds
+  bool ends_ = false;
+  std::vector<std::thread> helpers_;
+};
+
+/// A number of pieces of work, done by a pool's threads beside what the caller does. A pool works
+/// on one such thing at a time; a second one waits for finish().
+class Beside {
+ public:
+  /// Begins. `work` is called with 0 up to `pieces` - 1, each once, on any thread.
+  Beside(Pool& pool, int pieces, std::function<void(int)> work);
+  /// Waits for what has begun and leaves the rest.
+  ~Beside();
+  Beside(const Beside&) = delete;
+  Beside& operator=(const Beside&) = delete;
+
+  /// Lends a hand; returns when all is done. Of what the pieces throw, one is thrown again here.
+  void finish();
+
+ private:
+  friend class Pool;
+
+  [[nodiscard]] bool has_more() const { return next_ < pieces_; }
+  void do_one(std::unique_lock<std::mutex>& held);
+
+  Pool& pool_;
+  const int pieces_;
+  const std::function<void(int)> work_;
+  int next_ = 0;
+  int under_way_ = 0;
+  std::exception_ptr thrown_;
+};
+
+}  // namespace flowdlo::threads
