@@ -7,6 +7,8 @@
 #include <optional>
 #include <vector>
 
+#include "geometry/pixel.hpp"
+
 namespace flowdlo::gate {
 namespace {
 
@@ -22,6 +24,7 @@ constexpr float kStep = 0.5F;                 // widths from look to look
 constexpr float kCore = 0.3F;                 // half of what is taken for the rope, widths
 constexpr float kSideFrom = 0.9F;             // what is taken for its sides, widths off the axis
 constexpr float kSideTo = 1.5F;
+constexpr float kMostAcross = 32;    // depths read across a width
 constexpr float kRimFrom = 0.6F;     // just beside the rope: as deep as its sides, so that
 constexpr float kRimTo = 0.85F;      // nothing wider passes
 constexpr float kMostShift = 0.75F;  // sideways, widths
@@ -85,8 +88,8 @@ class Outlook {
 
  private:
   [[nodiscard]] std::optional<std::size_t> pixel(const Vector2f& px) const {
-    const auto u = std::lround(px.x());
-    const auto v = std::lround(px.y());
+    const int u = geometry::nearest_px(px.x());
+    const int v = geometry::nearest_px(px.y());
     if (u < 0 || v < 0 || u >= frame_.width || v >= frame_.height) return std::nullopt;
     return static_cast<std::size_t>(v) * static_cast<std::size_t>(frame_.width) +
            static_cast<std::size_t>(u);
@@ -158,8 +161,9 @@ class Outlook {
     std::vector<float> found;
     const Vector2f across(-look.along.y(), look.along.x());
     const float half_px = std::max(1.0F, 0.5F * kStep * curve_.width_px);
-    for (float off = from * curve_.width_px; off <= to * curve_.width_px + 1e-3F; off += 1) {
-      for (float on = -half_px; on < half_px; on += 1) {
+    const float step_px = std::max(1.0F, curve_.width_px / kMostAcross);
+    for (float off = from * curve_.width_px; off <= to * curve_.width_px + 1e-3F; off += step_px) {
+      for (float on = -half_px; on < half_px; on += step_px) {
         const Vector2f px = look.px + off * across + on * look.along;
         const float depth = masked(px) ? 0 : depth_m(px);
         if (depth > 0) found.push_back(depth);

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "geometry/pixel.hpp"
 #include "geometry/quantile.hpp"
 
 namespace flowdlo::gate {
@@ -27,8 +28,8 @@ constexpr float kBehind = 0.6F;  // radii behind its surface: what the rope woul
 enum class Seen { kMask, kBackground, kOutside };
 
 Seen seen(const Frame& frame, const Vector2f& px) {
-  const auto u = std::lround(px.x());
-  const auto v = std::lround(px.y());
+  const int u = geometry::nearest_px(px.x());
+  const int v = geometry::nearest_px(px.y());
   if (u < 0 || v < 0 || u >= frame.width || v >= frame.height) return Seen::kOutside;
   const auto pixel = static_cast<std::size_t>(v) * static_cast<std::size_t>(frame.width) +
                      static_cast<std::size_t>(u);
@@ -65,9 +66,9 @@ Seen seen_near(const Frame& frame, const CurvePoint& point) {
 /// Depth at a place; 0 where none was measured.
 float depth_at(const Frame& frame, const Vector2f& px) {
   if (seen(frame, px) == Seen::kOutside) return 0;
-  const auto pixel =
-      static_cast<std::size_t>(std::lround(px.y())) * static_cast<std::size_t>(frame.width) +
-      static_cast<std::size_t>(std::lround(px.x()));
+  const auto pixel = static_cast<std::size_t>(geometry::nearest_px(px.y())) *
+                         static_cast<std::size_t>(frame.width) +
+                     static_cast<std::size_t>(geometry::nearest_px(px.x()));
   const float depth_m = frame.depth_m[pixel];
   return depth_m > kLeastDepth_m && std::isfinite(depth_m) ? depth_m : 0;
 }

@@ -8,6 +8,7 @@
 #include <set>
 #include <utility>
 
+#include "geometry/pixel.hpp"
 #include "path/cover.hpp"
 #include "path/gap_curve.hpp"
 #include "path/midline.hpp"
@@ -108,8 +109,8 @@ Points along_bridges(const Strands& strands, const cv::Mat& distance, const std:
   const int margin = count > 4 * reach ? reach : 0;  // next to the forks the cubic is smoother
   for (int i = margin; i < count - margin; ++i) {
     const float t = static_cast<float>(i) / static_cast<float>(count);
-    const auto u = static_cast<int>(std::lround(middle[i].x()));
-    const auto v = static_cast<int>(std::lround(middle[i].y()));
+    const auto u = geometry::nearest_px(middle[i].x());
+    const auto v = geometry::nearest_px(middle[i].y());
     const float wide = width_at(distance.at<float>(v, u)) - strands.width_px;
     const float aside = 0.5F * std::clamp(wide, 0.0F, strands.width_px);
     points.push_back(middle[i] + ((1 - t) * enters + t * leaves) * aside * normal(i));

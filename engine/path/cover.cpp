@@ -5,6 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "geometry/pixel.hpp"
+
 namespace flowdlo::path {
 namespace {
 
@@ -25,15 +27,14 @@ bool Cover::masked(const Vector2f& p) const { return lit(region_.mask, p); }
 float Cover::depth_around(const Vector2f& p, bool on_mask) const {
   std::array<float, 5> values{};
   std::size_t count = 0;
-  const auto u = static_cast<int>(std::lround(p.x()));
-  const auto v = static_cast<int>(std::lround(p.y()));
+  const auto u = geometry::nearest_px(p.x());
+  const auto v = geometry::nearest_px(p.y());
   for (const auto& [du, dv] : {std::pair{0, 0}, {1, 0}, {-1, 0}, {0, 1}, {0, -1}}) {
-    const Vector2f q{static_cast<float>(u + du), static_cast<float>(v + dv)};
     const int image_u = u + du + region_.offset_px.x;
     const int image_v = v + dv + region_.offset_px.y;
     if (image_u < 0 || image_v < 0 || image_u >= frame_.width || image_v >= frame_.height) continue;
     const float z = frame_.depth_m[static_cast<std::size_t>(image_v) * frame_.width + image_u];
-    if (!std::isfinite(z) || z <= 1e-6F || masked(q) != on_mask) continue;
+    if (lit(region_.mask, u + du, v + dv) != on_mask || !std::isfinite(z) || z <= 1e-6F) continue;
     values[count++] = z;
   }
   if (count == 0) return 0;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "geometry/pixel.hpp"
 #include "geometry/quantile.hpp"
 
 namespace flowdlo::path {
@@ -45,8 +46,8 @@ bool stem(const Graph& graph, int end, float reach_px, float most_cosine) {
 float width_of(const Segment& segment, const cv::Mat& distance) {
   std::vector<float> values;
   for (const Vector2f& p : segment.points_px) {
-    values.push_back(width_at(distance.at<float>(static_cast<int>(std::lround(p.y())),
-                                                 static_cast<int>(std::lround(p.x())))));
+    values.push_back(
+        width_at(distance.at<float>(geometry::nearest_px(p.y()), geometry::nearest_px(p.x()))));
   }
   if (values.empty()) return 0;
   return geometry::median_of(values);

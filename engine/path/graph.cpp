@@ -5,6 +5,7 @@
 #include <tuple>
 #include <utility>
 
+#include "geometry/pixel.hpp"
 #include "path/midline.hpp"
 
 namespace flowdlo::path {
@@ -254,8 +255,8 @@ float spur_width(const Graph& graph, const Segment& segment, const cv::Mat& dist
   float thickest = 0;
   for (const Vector2f& p : segment.points_px) {
     if ((p - root.position_px).norm() < root.distance_px + 1) continue;
-    thickest = std::max(thickest, distance.at<float>(static_cast<int>(std::lround(p.y())),
-                                                     static_cast<int>(std::lround(p.x()))));
+    thickest = std::max(
+        thickest, distance.at<float>(geometry::nearest_px(p.y()), geometry::nearest_px(p.x())));
   }
   return width_at(thickest);
 }
@@ -294,8 +295,8 @@ float usual_width(const Graph& graph, const cv::Mat& distance, float fallback) {
   for (const Segment& segment : graph.segments) {
     if (!segment.alive) continue;
     for (const Vector2f& p : segment.points_px) {
-      distances.push_back(distance.at<float>(static_cast<int>(std::lround(p.y())),
-                                             static_cast<int>(std::lround(p.x()))));
+      distances.push_back(
+          distance.at<float>(geometry::nearest_px(p.y()), geometry::nearest_px(p.x())));
     }
   }
   if (distances.empty()) return fallback;

@@ -7,6 +7,7 @@
 #include <opencv2/core.hpp>
 #include <string>
 
+#include "geometry/pixel.hpp"
 #include "guard/guarded.hpp"
 #include "path/assemble.hpp"
 #include "path/bonds.hpp"
@@ -57,8 +58,8 @@ double length_m(const Path& path, const Frame& frame) {
   const auto focal = 0.5 * static_cast<double>(frame.intrinsics.fx + frame.intrinsics.fy);
   std::size_t before = 0;
   for (std::size_t i = 0; i < path.points_px.size(); i += 4) {
-    const auto u = static_cast<std::size_t>(std::lround(path.points_px[i].x()));
-    const auto v = static_cast<std::size_t>(std::lround(path.points_px[i].y()));
+    const auto u = static_cast<std::size_t>(geometry::nearest_px(path.points_px[i].x()));
+    const auto v = static_cast<std::size_t>(geometry::nearest_px(path.points_px[i].y()));
     const float z = frame.depth_m[v * static_cast<std::size_t>(frame.width) + u];
     if (path.bridged[i] != 0 || !std::isfinite(z) || z <= 1e-6F) continue;
     if (z_before > 0) {

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "geometry/pixel.hpp"
 #include "path/fringe.hpp"
 #include "path/seams.hpp"
 #include "path/strokes.hpp"
@@ -216,16 +217,18 @@ cv::Rect bounding_box(const Frame& frame) {
   return {left, top, right - left + 1, bottom - top + 1};
 }
 
-bool lit(const cv::Mat& mask, const Eigen::Vector2f& p) {
-  const auto u = static_cast<int>(std::lround(p.x()));
-  const auto v = static_cast<int>(std::lround(p.y()));
+bool lit(const cv::Mat& mask, int u, int v) {
   return u >= 0 && v >= 0 && u < mask.cols && v < mask.rows && mask.at<std::uint8_t>(v, u) != 0;
+}
+
+bool lit(const cv::Mat& mask, const Eigen::Vector2f& p) {
+  return lit(mask, geometry::nearest_px(p.x()), geometry::nearest_px(p.y()));
 }
 
 Region cut(const Region& region, const std::vector<std::vector<Eigen::Vector2f>>& lines) {
   Region result = region;
   const auto pixel = [](const Eigen::Vector2f& p) {
-    return cv::Point(static_cast<int>(std::lround(p.x())), static_cast<int>(std::lround(p.y())));
+    return cv::Point(geometry::nearest_px(p.x()), geometry::nearest_px(p.y()));
   };
   cv::Mat drawn = cv::Mat::zeros(region.mask.size(), CV_8U);
   for (const auto& line : lines) {  // without diagonal steps, which join what they pass

@@ -24,7 +24,8 @@ struct Region {
 /// odd widths, 2 d for even ones; between the two here.
 [[nodiscard]] inline float width_at(float distance_px) { return 2.0F * distance_px - 0.5F; }
 
-/// Whether the pixel of `mask` nearest to `p` is set; false outside.
+/// Whether a pixel of `mask`, or the one nearest to `p`, is set; false outside.
+[[nodiscard]] bool lit(const cv::Mat& mask, int u, int v);
 [[nodiscard]] bool lit(const cv::Mat& mask, const Eigen::Vector2f& p);
 
 /// The smallest rectangle that holds the mask; empty without any.

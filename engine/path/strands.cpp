@@ -6,6 +6,7 @@
 #include <map>
 #include <utility>
 
+#include "geometry/pixel.hpp"
 #include "geometry/quantile.hpp"
 #include "path/cover.hpp"
 #include "path/crossings.hpp"
@@ -33,8 +34,8 @@ constexpr float kStraightOff = 0.7F;     // of a strand's length: its tip is thi
 constexpr float kMaxSlope = 1.5F;        // metres of depth a metre sideways
 
 float at(const cv::Mat& image, const Vector2f& p) {
-  const int u = std::clamp(static_cast<int>(std::lround(p.x())), 0, image.cols - 1);
-  const int v = std::clamp(static_cast<int>(std::lround(p.y())), 0, image.rows - 1);
+  const int u = std::clamp(geometry::nearest_px(p.x()), 0, image.cols - 1);
+  const int v = std::clamp(geometry::nearest_px(p.y()), 0, image.rows - 1);
   return image.at<float>(v, u);
 }
 
@@ -84,8 +85,8 @@ void extend_tip(Points& points, std::vector<std::uint8_t>& aside, const Region& 
 float depth_at(const Vector2f& p, const Region& region, const Frame& frame) {
   std::vector<float> values;
   for (const auto& [du, dv] : {std::pair{0, 0}, {1, 0}, {-1, 0}, {0, 1}, {0, -1}}) {
-    const int u = static_cast<int>(std::lround(p.x())) + du;
-    const int v = static_cast<int>(std::lround(p.y())) + dv;
+    const int u = geometry::nearest_px(p.x()) + du;
+    const int v = geometry::nearest_px(p.y()) + dv;
     if (u < 0 || v < 0 || u >= region.mask.cols || v >= region.mask.rows) continue;
     if (region.mask.at<std::uint8_t>(v, u) == 0) continue;
     const int image_u = u + region.offset_px.x;
