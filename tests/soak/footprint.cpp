@@ -26,6 +26,10 @@ Footprint footprint() {
   double resident_pages = 0;
   file >> pages >> resident_pages;
   Footprint now;
+#ifdef __GLIBC__
+  const auto heap = ::mallinfo2();  // of all arenas; what is mapped for one block stands apart
+  now.heap_mb = static_cast<double>(heap.uordblks + heap.hblkhd) / 1.0e6;
+#endif
   now.resident_mb = resident_pages * static_cast<double>(::sysconf(_SC_PAGESIZE)) / 1.0e6;
   now.descriptors = entries("/proc/self/fd");
   now.threads = entries("/proc/self/task");

@@ -20,14 +20,16 @@ double median(std::vector<double> values) {
 
 Level Growth::level(std::size_t begin, std::size_t end) const {
   std::vector<double> resident;
+  std::vector<double> heap;
   std::vector<double> descriptors;
   std::vector<double> threads;
   for (std::size_t i = begin; i < end; ++i) {
     resident.push_back(lives_[i].resident_mb);
+    heap.push_back(lives_[i].heap_mb);
     descriptors.push_back(lives_[i].descriptors);
     threads.push_back(lives_[i].threads);
   }
-  return {median(resident), median(descriptors), median(threads)};
+  return {median(resident), median(heap), median(descriptors), median(threads)};
 }
 
 Level Growth::early() const { return level(lives_.size() / 4, lives_.size() / 2); }
@@ -47,6 +49,9 @@ std::vector<std::string> Growth::faults(const Allowance& allowance) const {
   const Level before = early();
   const Level after = late();
   check("resident MB", before.resident_mb, after.resident_mb, allowance.resident_mb);
+  const double lives = 0.5 * static_cast<double>(lives_.size());
+  check("heap MB", before.heap_mb, after.heap_mb,
+        allowance.heap_mb + lives * allowance.heap_mb_a_life);
   check("open files", before.descriptors, after.descriptors, allowance.descriptors);
   check("threads", before.threads, after.threads, allowance.threads);
   return found;

@@ -12,6 +12,8 @@ namespace flowdlo::soak {
 /// of a process that leaks nothing goes up and down by a few MB with the sizes of frames.
 struct Allowance {
   double resident_mb = 0;
+  double heap_mb = 0;
+  double heap_mb_a_life = 0;  ///< and this for each life between the middles of both quarters
   int descriptors = 0;
   int threads = 0;
 };
@@ -19,6 +21,7 @@ struct Allowance {
 /// Medians over a part of the lives.
 struct Level {
   double resident_mb = 0;
+  double heap_mb = 0;
   double descriptors = 0;
   double threads = 0;
 };
