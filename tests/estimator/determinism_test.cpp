@@ -12,6 +12,7 @@
 #include "flowdlo/frame_folder.hpp"
 #include "support/estimate_bits.hpp"
 #include "support/ring_frame.hpp"
+#include "support/source_dir.hpp"
 #include "support/wave_frame.hpp"
 
 namespace flowdlo {
@@ -56,7 +57,7 @@ class Frames {
 
  private:
   Result<FrameFolder> loop_ =
-      load_frame_folder(FLOWDLO_SOURCE_DIR "/examples/frames/overhand_loop");
+      load_frame_folder(test::source_dir() / "examples/frames/overhand_loop");
   RingFrame ring_;
 };
 

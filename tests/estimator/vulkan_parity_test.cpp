@@ -36,7 +36,9 @@ class VulkanParity : public ::testing::Test {
 };
 
 flow::ProgramFactory on_device() {
-  return [] { return vulkan::create_program(device()); };
+  return [] {  // a starved CPU driver is slow, not lost
+    return vulkan::create_program(device(), {.timeout_ms = 60000, .pipeline_cache = {}});
+  };
 }
 
 flow::ProgramFactory on_cpu() {

@@ -11,6 +11,7 @@
 #include <string>
 
 #include "frame/temporary_folder.hpp"
+#include "support/source_dir.hpp"
 
 namespace flowdlo {
 namespace {
@@ -306,7 +307,7 @@ TEST(FrameFolder, NothingIsPrintedAboutBrokenImages) {
 }
 
 TEST(FrameFolder, RealRecordingsAreRead) {
-  const fs::path real = fs::path(FLOWDLO_SOURCE_DIR) / ".." / "shared" / "data" / "real";
+  const fs::path real = test::source_dir() / ".." / "shared" / "data" / "real";
   if (!fs::is_directory(real)) {
     GTEST_SKIP() << "no recordings beside the sources: " << real;
   }

@@ -10,6 +10,7 @@
 
 #include "canvas.hpp"
 #include "path/path.hpp"
+#include "support/source_dir.hpp"
 
 namespace flowdlo::test {
 namespace {
@@ -42,7 +43,7 @@ struct Case {
 class RealFrame : public testing::TestWithParam<Case> {};
 
 TEST_P(RealFrame, IsOnePathOverAllPiecesInTheRightOrder) {
-  const fs::path folder = fs::path(FLOWDLO_SOURCE_DIR) / "../shared/data/real" / GetParam().name;
+  const fs::path folder = test::source_dir() / "../shared/data/real" / GetParam().name;
   if (!fs::exists(folder / "mask.png"))
     GTEST_SKIP() << "no " << GetParam().name << " beside the project";
   Frame frame;

@@ -5,12 +5,14 @@
 #include <array>
 #include <cstdio>
 
+#include "support/source_dir.hpp"
+
 namespace flowdlo::project {
 
 bool has_program(const std::string& program) { return run("command -v " + program).status == 0; }
 
 Outcome run(const std::string& line) {
-  const std::string in_root = "cd '" FLOWDLO_SOURCE_DIR "' && { " + line + "; } 2>&1";
+  const std::string in_root = "cd '" + test::source_dir().string() + "' && { " + line + "; } 2>&1";
   FILE* pipe = popen(in_root.c_str(), "r");
   if (pipe == nullptr) {
     return {};

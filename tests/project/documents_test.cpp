@@ -5,6 +5,7 @@
 #include <regex>
 
 #include "project/tree.hpp"
+#include "support/source_dir.hpp"
 
 namespace flowdlo::project {
 namespace {
@@ -43,7 +44,7 @@ TEST(Documents, LinksLeadToFilesOfTheProject) {
     const auto content = read(document);
     for (std::sregex_iterator it(content.begin(), content.end(), link), end; it != end; ++it) {
       const auto target = fs::path(document).parent_path() / (*it)[1].str();
-      if (!fs::exists(fs::path(FLOWDLO_SOURCE_DIR) / target)) {
+      if (!fs::exists(test::source_dir() / target)) {
         dead.push_back(document + ": " + target.generic_string());
       }
     }

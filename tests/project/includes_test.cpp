@@ -6,6 +6,7 @@
 
 #include "project/include_rules.hpp"
 #include "project/tree.hpp"
+#include "support/source_dir.hpp"
 
 namespace flowdlo::project {
 namespace {
@@ -105,7 +106,7 @@ TEST(Engine, IncludesRunDownwardsOnly) {
 
 TEST(Engine, IncludesOfItsOwnFilesAreWrittenFromEngine) {
   namespace fs = std::filesystem;
-  const fs::path engine = fs::path(FLOWDLO_SOURCE_DIR) / "engine";
+  const fs::path engine = test::source_dir() / "engine";
   std::vector<std::string> complaints;
   for (const auto& source : engine_sources()) {
     for (const auto& include : includes_of(read("engine/" + source))) {

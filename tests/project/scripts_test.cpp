@@ -6,6 +6,7 @@
 
 #include "project/command.hpp"
 #include "project/tree.hpp"
+#include "support/source_dir.hpp"
 
 namespace flowdlo::project {
 namespace {
@@ -51,8 +52,7 @@ TEST(Scripts, StopAtTheFirstFailure) {
 TEST(Scripts, ThoseThatPeopleStartAreExecutable) {
   for (const auto& script : bash_scripts()) {
     if (script.starts_with("scripts/") || script.starts_with(".ci/")) {
-      EXPECT_EQ(access((std::string(FLOWDLO_SOURCE_DIR) + "/" + script).c_str(), X_OK), 0)
-          << script;
+      EXPECT_EQ(access((test::source_dir() / script).c_str(), X_OK), 0) << script;
     }
   }
 }

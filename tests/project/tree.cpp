@@ -7,13 +7,14 @@
 #include <sstream>
 
 #include "project/command.hpp"
+#include "support/source_dir.hpp"
 
 namespace flowdlo::project {
 namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path kRoot = FLOWDLO_SOURCE_DIR;
+const fs::path kRoot = test::source_dir();
 
 std::vector<std::string> files_known_to_git() {
   const auto listed =

@@ -10,6 +10,7 @@
 #include "frame/temporary_folder.hpp"
 #include "recording/drawn_recording.hpp"
 #include "support/peak_memory.hpp"
+#include "support/source_dir.hpp"
 
 namespace flowdlo::recording {
 namespace {
@@ -175,7 +176,7 @@ TEST_F(BagTest, DamageNeverEndsTheProcess) {
 
 TEST(Recordings, DocumentSaysHowManyBagsAreDamaged) {
   const std::string words = std::to_string(kDamagedBags) + " bags with random damage";
-  std::string document = read_text(FLOWDLO_SOURCE_DIR "/docs/recordings.md");
+  std::string document = read_text(test::source_dir() / "docs/recordings.md");
   std::replace(document.begin(), document.end(), '\n', ' ');
   EXPECT_THAT(document, HasSubstr(words));
 }

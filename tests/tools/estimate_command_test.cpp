@@ -10,6 +10,7 @@
 
 #include "frame/centerline_csv.hpp"
 #include "frame/temporary_folder.hpp"
+#include "support/source_dir.hpp"
 #include "tools/program.hpp"
 
 namespace flowdlo {
@@ -216,7 +217,7 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& fault) { return std::string(fault.param.name); });
 
 TEST(EstimateCommand, RealRecordingsHaveSixtyFourNodesAtTheirDepth) {
-  const fs::path real = fs::path(FLOWDLO_SOURCE_DIR) / ".." / "shared" / "data" / "real";
+  const fs::path real = test::source_dir() / ".." / "shared" / "data" / "real";
   if (!fs::is_directory(real)) GTEST_SKIP() << "no recordings beside the sources: " << real;
   const TemporaryFolder scratch;
   const auto outcome = run_estimate(scratch.path(), {real.string(), "--quiet"});

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "frame/temporary_folder.hpp"
+#include "support/source_dir.hpp"
 #include "tools/program.hpp"
 
 namespace flowdlo {
@@ -47,7 +48,7 @@ std::map<std::string, std::string> results_in(const fs::path& folder) {
 
 void expect_same_bytes(const std::string& device) {
   const test::TemporaryFolder scratch;
-  const fs::path frame = FLOWDLO_SOURCE_DIR "/examples/frames/overhand_loop";
+  const fs::path frame = test::source_dir() / "examples/frames/overhand_loop";
   const auto run = [&](int i) {
     const fs::path own = scratch.path() / std::to_string(i);
     fs::create_directories(own);

@@ -12,13 +12,14 @@
 #include "train/record_conditions.hpp"
 #include "train/record_file.hpp"
 #ifdef FLOWDLO_WITH_VULKAN
+#include "support/source_dir.hpp"
 #include "vulkan/backend.hpp"
 #endif
 
 namespace flowdlo {
 namespace {
 
-const std::filesystem::path kFolder = std::filesystem::path(FLOWDLO_SOURCE_DIR) / "tests/golden";
+const std::filesystem::path kFolder = test::source_dir() / "tests/golden";
 
 std::string name_of(const weights::Variant& variant) {
   return "parameterization " + std::to_string(static_cast<int>(variant.parameterization)) + ", " +

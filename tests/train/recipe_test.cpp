@@ -5,11 +5,12 @@
 #include <filesystem>
 #include <string>
 
+#include "support/source_dir.hpp"
+
 namespace flowdlo::train {
 namespace {
 
-const std::filesystem::path kRecipes =
-    std::filesystem::path(FLOWDLO_SOURCE_DIR) / "lab/train/recipes";
+const std::filesystem::path kRecipes = test::source_dir() / "lab/train/recipes";
 
 TEST(Recipe, EveryRecipeOfTheRepositoryIsReadAndWritesItself) {
   for (const char* name : {"thesis.json", "robust.json", "smoke.json"}) {

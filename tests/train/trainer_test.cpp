@@ -9,6 +9,7 @@
 #include "evidence/mask_field.hpp"
 #include "flow/gaussian_source.hpp"
 #include "reference/program.hpp"
+#include "support/source_dir.hpp"
 #include "train/batch.hpp"
 #include "train/device.hpp"
 #include "train/export.hpp"
@@ -20,8 +21,7 @@ namespace flowdlo::train {
 namespace {
 
 Recipe small_recipe() {
-  auto recipe =
-      read_recipe(std::filesystem::path(FLOWDLO_SOURCE_DIR) / "lab/train/recipes/smoke.json");
+  auto recipe = read_recipe(test::source_dir() / "lab/train/recipes/smoke.json");
   if (!recipe) throw std::runtime_error(recipe.error().message);
   recipe->optimizer.batch = 4;
   recipe->optimizer.steps = 150;
