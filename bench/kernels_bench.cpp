@@ -5,6 +5,7 @@
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <functional>
@@ -91,6 +92,19 @@ double seconds_of(ops::Program& program, int repeats) {
   return program.stage_times_ms().back().second * 1e-3 / repeats;
 }
 
+/// Milliseconds that the CPU back end takes on one thread for the same: what CPU drivers are held
+/// against.
+double cpu_ms(const Subject& subject) {
+  const auto program = reference::create_program(1);
+  const auto out = program->output("out", subject.out_rows, subject.out_columns);
+  program->stage("timed");
+  subject.record(*program, out, subject.repeats);
+  if (!program->build()) return 0;
+  double best_s = std::numeric_limits<double>::max();
+  for (int i = 0; i < 10; ++i) best_s = std::min(best_s, seconds_of(*program, subject.repeats));
+  return best_s * 1e3;
+}
+
 /// The smallest dispatch there is: one row of Denormalize, and the barrier before it.
 Subject empty_dispatch() {
   return {1, 4, [](ops::Program& program, ops::Tensor out, int repeats) {
@@ -103,7 +117,7 @@ Subject empty_dispatch() {
 }
 
 void run(benchmark::State& state, const std::shared_ptr<vulkan::Device>& device,
-         const Subject& subject, double flop) {
+         const Subject& subject, double flop, bool beside_cpu) {
   if (!agrees(device, subject)) {
     state.SkipWithError("the result differs from the CPU's");
     return;
@@ -131,6 +145,7 @@ void run(benchmark::State& state, const std::shared_ptr<vulkan::Device>& device,
     state.counters["GFLOP/s"] = flop / each_s * 1e-9;
     state.counters["best_GFLOP/s"] = flop / best_s * 1e-9;
   }
+  if (beside_cpu) state.counters["cpu_best_ms"] = cpu_ms(subject);
 }
 
 Subject gemm(int depth, int columns, ops::Activation activation = ops::Activation::kNone) {
@@ -205,10 +220,77 @@ Subject farthest_points(int count) {
           1};
 }
 
+/// The map of a square image, all of whose blocks are in use, row by row.
+std::vector<float> full_map(int blocks_a_side) {
+  std::vector<float> map;
+  for (int block = 0; block < blocks_a_side * blocks_a_side; ++block) {
+    for (int entry = 0; entry < 9; ++entry) {
+      const int row = block / blocks_a_side + entry / 3 - 1;
+      const int column = block % blocks_a_side + entry % 3 - 1;
+      const bool inside = std::min(row, column) >= 0 && std::max(row, column) < blocks_a_side;
+      map.push_back(inside ? static_cast<float>(row * blocks_a_side + column) : -1.0F);
+    }
+    map.insert(map.end(), 3, 0.0F);
+  }
+  return map;
+}
+
+constexpr int kBlocksASide = 10;
+constexpr int kBlocks = kBlocksASide * kBlocksASide;
+
+Subject convolution(int side, int in, int out, int taps) {
+  const int places = kBlocks * side * side;
+  return {places, out, [=](ops::Program& program, ops::Tensor y, int repeats) {
+            const float scale = 1.0F / std::sqrt(static_cast<float>(taps * in));
+            const auto x = program.constant("x", places, in, noise(places, in, 1));
+            const auto map = program.constant("map", kBlocks, 12, full_map(kBlocksASide));
+            const auto layer = program.convolution(
+                "layer", out, taps, in, noise(out, taps * in, 2, scale), noise(1, out, 3));
+            for (int i = 0; i < repeats; ++i) {
+              program.record(
+                  ops::Convolution{.x = x, .map = map, .layer = layer, .y = y, .side = side});
+            }
+          }};
+}
+
+double flop_of_convolution(int side, int in, int out, int taps) {
+  return 2.0 * kBlocks * side * side * in * out * taps;
+}
+
+Subject max_pool(int side, int channels) {
+  const int places = kBlocks * side * side;
+  return {places / 4, channels, [=](ops::Program& program, ops::Tensor y, int repeats) {
+            const auto x = program.constant("x", places, channels, noise(places, channels, 1));
+            const auto map = program.constant("map", kBlocks, 12, full_map(kBlocksASide));
+            for (int i = 0; i < repeats; ++i) {
+              program.record(ops::MaxPool{.x = x, .map = map, .y = y, .side = side});
+            }
+          }};
+}
+
+Subject add_upsampled(int side, int channels) {
+  const int places = kBlocks * side * side;
+  return {places, channels, [=](ops::Program& program, ops::Tensor y, int repeats) {
+            const auto x =
+                program.constant("x", places / 4, channels, noise(places / 4, channels, 1));
+            const auto map = program.constant("map", kBlocks, 12, full_map(kBlocksASide));
+            // What a device's first run, of build(), has added must not count.
+            const auto zeros =
+                program.constant("zeros", places, channels,
+                                 std::vector<float>(static_cast<std::size_t>(places) * channels));
+            program.record(ops::Copy{.from = zeros, .to = y});
+            for (int i = 0; i < repeats; ++i) {
+              program.record(ops::AddUpsampled{.x = x, .map = map, .y = y, .side = side});
+            }
+          }};
+}
+
 void register_all(const std::shared_ptr<vulkan::Device>& device) {
-  const auto add = [&](const std::string& name, const Subject& subject, double flop) {
+  const auto add = [&](const std::string& name, const Subject& subject, double flop,
+                       bool beside_cpu = false) {
     benchmark::RegisterBenchmark(
-        name.c_str(), [=](benchmark::State& state) { run(state, device, subject, flop); })
+        name.c_str(),
+        [=](benchmark::State& state) { run(state, device, subject, flop, beside_cpu); })
         ->MeasureProcessCPUTime()
         ->UseManualTime()
         ->MinTime(0.2);
@@ -223,6 +305,15 @@ void register_all(const std::shared_ptr<vulkan::Device>& device) {
   add("layer_norm", layer_norm(), 0);
   add("farthest_points/20000", farthest_points(20000), 0);
   add("farthest_points/300000", farthest_points(300000), 0);
+  for (const auto& [side, in, out, taps] :
+       {std::array{16, 32, 32, 9}, std::array{16, 48, 32, 9}, std::array{8, 48, 48, 9},
+        std::array{4, 96, 96, 9}, std::array{8, 48, 32, 1}, std::array{16, 32, 16, 1}}) {
+    add("convolution/" + std::to_string(side) + "/" + std::to_string(in) + "x" +
+            std::to_string(out) + "x" + std::to_string(taps),
+        convolution(side, in, out, taps), flop_of_convolution(side, in, out, taps), true);
+  }
+  add("max_pool/16/32", max_pool(16, 32), 0, true);
+  add("add_upsampled/16/32", add_upsampled(16, 32), 0, true);
 }
 
 }  // namespace

@@ -15,8 +15,8 @@ struct GemmPush {
 };
 
 struct TileGemmPush {  // also of matrix_gemm
-  int rows;       // of x and y in this dispatch
-  int row_quads;  // columns of y and residual, in fours
+  int rows;            // of x and y in this dispatch
+  int row_quads;       // columns of y and residual, in fours
 };
 
 struct NarrowPush {
@@ -46,6 +46,15 @@ struct FarthestPush {
 struct MaskFeaturesPush {
   int field_texels;  // rows of the field
   int depth_pixels;  // rows of the depth image
+};
+
+struct ConvolutionPush {
+  int side_bits;   // a block's side is 1 << side_bits
+  int fours;       // of places in this dispatch
+  int x_quads;     // from a place of x to the next, in fours of channels
+  int y_quads;     // the same of y
+  int first_quad;  // of y in this dispatch
+  float least;     // that a result may be: 0 makes a ReLU
 };
 
 struct FlowStepPush {

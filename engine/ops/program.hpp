@@ -1,8 +1,9 @@
 // Program: operations on tensors, recorded once, run once a frame.
 //
-// The velocity model and its sampler are written once, against this interface. Two rooms implement
-// it: `reference` (Eigen, the CPU back end) and `vulkan` (one submission a run). Every tensor is
-// f32, row-major, [rows, columns]. An operation sees the results of those recorded before it.
+// The velocity model, its sampler and the strand field are written once, against this interface.
+// Two rooms implement it: `reference` (Eigen, the CPU back end) and `vulkan` (one submission a
+// run). Every tensor is f32, row-major, [rows, columns]. An operation sees the results of those
+// recorded before it.
 #pragma once
 
 #include <cstdint>
@@ -36,6 +37,14 @@ struct LinearLayer {
   std::uint32_t id = 0;
   int in = 0;
   int out = 0;
+};
+
+/// A convolution kept by the program; see Convolution.
+struct ConvolutionLayer {
+  std::uint32_t id = 0;
+  int in = 0;
+  int out = 0;
+  int taps = 9;
 };
 
 enum class Activation { kNone, kGelu };  ///< GELU is the erf form, to within 1e-5 absolute
@@ -161,6 +170,43 @@ struct FlowStep {
   float dt = 0;
 };
 
+// Images, of which only some blocks are kept. A block is a square of `side` x `side` places, side
+// 16, 8 or 4, and one row of a tensor is one place: row (block * side + y) * side + x, its columns
+// the place's channels. Which blocks lie beside each other says a map [capacity, 12], the same for
+// every side: column 3 (dy + 1) + (dx + 1) is the block that lies there, as a float, or -1:
+// nothing, where zeros are read. Column 4 is the block itself, or -1 where it is not in use: such
+// blocks come last, and what their rows hold is nobody's business. Columns 9 to 11 are 0.
+
+/// y = act(sum over taps of W_tap x at the tap's place + b). x [capacity * side^2, layer.in],
+/// y [capacity * side^2, layer.out]; both a multiple of 16; (side + 2)^2 * layer.in at most 16384.
+/// Nine taps: a square of 3 x 3 around the place, row by row; one: the place itself.
+struct Convolution {
+  Tensor x;
+  Tensor map;
+  ConvolutionLayer layer;
+  Tensor y;
+  int side = 16;
+  bool relu = true;  ///< act; otherwise none
+};
+
+/// The largest of each 2 x 2 places. x [capacity * side^2, c], y [capacity * (side / 2)^2, c], c a
+/// multiple of 16.
+struct MaxPool {
+  Tensor x;
+  Tensor map;
+  Tensor y;
+  int side = 16;  ///< of x: 16 or 8
+};
+
+/// y += x, each place of x over 2 x 2 places of y. x [capacity * (side / 2)^2, c],
+/// y [capacity * side^2, c], c a multiple of 16.
+struct AddUpsampled {
+  Tensor x;
+  Tensor map;
+  Tensor y;
+  int side = 16;  ///< of y: 16 or 8
+};
+
 /// Copies `from` to `to`; same shape.
 struct Copy {
   Tensor from;
@@ -186,6 +232,11 @@ class Program {
   virtual LinearLayer layer(std::string_view name, int out, int in, std::span<const float> weight,
                             std::span<const float> bias) = 0;
 
+  /// weight [out, taps, in], bias [out]; likewise. taps is 9 or 1.
+  virtual ConvolutionLayer convolution(std::string_view name, int out, int taps, int in,
+                                       std::span<const float> weight,
+                                       std::span<const float> bias) = 0;
+
   /// Whether the host had better sample the visible points and write them as an input, since here
   /// FarthestPoints takes longer than there. Both give the same bits.
   [[nodiscard]] virtual bool host_samples_points() const { return false; }
@@ -202,6 +253,9 @@ class Program {
   virtual void record(const Denormalize& op) = 0;
   virtual void record(const MaskFeatures& op) = 0;
   virtual void record(const FlowStep& op) = 0;
+  virtual void record(const Convolution& op) = 0;
+  virtual void record(const MaxPool& op) = 0;
+  virtual void record(const AddUpsampled& op) = 0;
   virtual void record(const Copy& op) = 0;
   /// Operations from here on are timed under `name`; a name may come back.
   virtual void stage(std::string_view name) = 0;

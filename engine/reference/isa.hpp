@@ -14,5 +14,6 @@ void linear(const LinearBlock& block);
 void narrow(const NarrowBlock& block);
 void layer_norm(const LayerNormBlock& block);
 void attention(const AttentionBlock& block);
+void convolution(const ConvolutionBlock& block);
 
 }  // namespace flowdlo::reference::FLOWDLO_ISA

@@ -4,14 +4,15 @@
 
 namespace flowdlo::reference {
 
-#define FLOWDLO_ISA_KERNELS(name)                                                 \
-  namespace name {                                                                \
-  void pack(const float* weight, int out, int in, float* panels);                 \
-  void linear(const LinearBlock& block);                                          \
-  void narrow(const NarrowBlock& block);                                          \
-  void layer_norm(const LayerNormBlock& block);                                   \
-  void attention(const AttentionBlock& block);                                    \
-  constexpr Kernels kKernels{#name, pack, linear, narrow, layer_norm, attention}; \
+#define FLOWDLO_ISA_KERNELS(name)                                                              \
+  namespace name {                                                                             \
+  void pack(const float* weight, int out, int in, float* panels);                              \
+  void linear(const LinearBlock& block);                                                       \
+  void narrow(const NarrowBlock& block);                                                       \
+  void layer_norm(const LayerNormBlock& block);                                                \
+  void attention(const AttentionBlock& block);                                                 \
+  void convolution(const ConvolutionBlock& block);                                             \
+  constexpr Kernels kKernels{#name, pack, linear, narrow, layer_norm, attention, convolution}; \
   }
 
 FLOWDLO_ISA_KERNELS(baseline)

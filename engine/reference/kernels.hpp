@@ -1,8 +1,8 @@
 // Kernels: the dense operations on one block of rows, once for each instruction set.
 //
-// linear.cpp, narrow.cpp, layer_norm.cpp and attention.cpp are compiled several times, each time
-// into the namespace named by FLOWDLO_ISA, so that the linker cannot mix code of two instruction
-// sets. They take plain pointers and use no library for the same reason.
+// linear.cpp, narrow.cpp, layer_norm.cpp, attention.cpp and convolution.cpp are compiled several
+// times, each time into the namespace named by FLOWDLO_ISA, so that the linker cannot mix code of
+// two instruction sets. They take plain pointers and use no library for the same reason.
 #pragma once
 
 #include <cstddef>
@@ -73,15 +73,34 @@ struct AttentionBlock {
 
 inline constexpr int kMaxKeys = 256;
 
+/// One block of an image; see ops::Convolution.
+struct ConvolutionBlock {
+  const float* x;       ///< the whole tensor
+  const float* around;  ///< [9] of the map: the blocks around this one
+  const float* panels;  ///< the weight [out, taps * in] as pack() lays it out
+  const float* bias;    ///< [out]
+  float* y;             ///< the block's first row
+  int side;
+  int taps;
+  int in;
+  int out;
+  bool relu;
+};
+
+/// Floats of a block and the places around it, at most.
+inline constexpr int kMostAround = 16384;
+
 /// The entries of one instruction set.
 struct Kernels {
   const char* isa;
-  /// Lays a weight [out, in] out for `linear`; out is a multiple of 64, in of 256.
+  /// Lays a weight [out, in] out for `linear` and `convolution`, in as many panels as hold `out`
+  /// columns.
   void (*pack)(const float* weight, int out, int in, float* panels);
   void (*linear)(const LinearBlock&);
   void (*narrow)(const NarrowBlock&);
   void (*layer_norm)(const LayerNormBlock&);
   void (*attention)(const AttentionBlock&);
+  void (*convolution)(const ConvolutionBlock&);
 };
 
 /// All that both this build and this processor have, the widest first.

@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "reference/aligned_floats.hpp"
+#include "reference/block_image.hpp"
 #include "reference/farthest_points.hpp"
 #include "reference/flow_step.hpp"
 #include "reference/kernels.hpp"
@@ -61,6 +62,10 @@ class Program final : public ops::Program {
   ops::LinearLayer layer(std::string_view name, int out, int in, std::span<const float> weight,
                          std::span<const float> bias) override;
 
+  ops::ConvolutionLayer convolution(std::string_view name, int out, int taps, int in,
+                                    std::span<const float> weight,
+                                    std::span<const float> bias) override;
+
   void record(const ops::Linear& op) override;
   void record(const ops::Narrow& op) override;
   void record(const ops::LayerNorm& op) override;
@@ -71,6 +76,9 @@ class Program final : public ops::Program {
   void record(const ops::Denormalize& op) override;
   void record(const ops::MaskFeatures& op) override;
   void record(const ops::FlowStep& op) override;
+  void record(const ops::Convolution& op) override;
+  void record(const ops::MaxPool& op) override;
+  void record(const ops::AddUpsampled& op) override;
   void record(const ops::Copy& op) override;
   void stage(std::string_view name) override { schedule_.stage(name); }
 
@@ -113,6 +121,22 @@ class Program final : public ops::Program {
     if (!addend) return {};
     return {data(addend->table), addend->period, addend->offset};
   }
+  /// A step on the blocks of an image that are in use: work(block, the blocks around it).
+  void add_image(ops::Tensor map, ops::Tensor writes, std::vector<std::uint32_t> reads_beyond,
+                 std::function<void(int, const float*)> work) {
+    reads_beyond.push_back(map.id);
+    schedule_.add({.blocks = map.rows,
+                   .work =
+                       [this, map, work = std::move(work)](const Piece& piece) {
+                         for (int block = piece.block; block < piece.block + piece.blocks;
+                              ++block) {
+                           const float* const around = data(map) + floats(block, map.columns);
+                           if (around[4] >= 0) work(block, around);
+                         }
+                       },
+                   .reads_beyond = std::move(reads_beyond),
+                   .writes = writes.id});
+  }
   /// A step on the whole of its tensors.
   void add_whole(ops::Tensor writes, std::function<void()> work) {
     schedule_.add({.work = [work = std::move(work)](const Piece&) { work(); },
@@ -146,6 +170,18 @@ ops::LinearLayer Program::layer(std::string_view, int out, int in, std::span<con
   }
   layers_.push_back(std::move(layer));
   return {static_cast<std::uint32_t>(layers_.size() - 1), in, out};
+}
+
+ops::ConvolutionLayer Program::convolution(std::string_view, int out, int taps, int in,
+                                           std::span<const float> weight,
+                                           std::span<const float> bias) {
+  const int columns = (out + kPartColumns - 1) / kPartColumns * kPartColumns;  // whole panels
+  Layer layer{AlignedFloats(static_cast<std::size_t>(floats(columns, taps * in))),
+              AlignedFloats(bias.size())};
+  std::copy(bias.begin(), bias.end(), layer.bias.data());
+  kernels_.pack(weight.data(), out, taps * in, layer.weight.data());
+  layers_.push_back(std::move(layer));
+  return {static_cast<std::uint32_t>(layers_.size() - 1), in, out, taps};
 }
 
 void Program::record(const ops::Linear& op) {
@@ -303,6 +339,41 @@ void Program::record(const ops::FlowStep& op) {
                  .work = work,
                  .reads_beyond = {},
                  .writes = op.state.id});
+}
+
+void Program::record(const ops::Convolution& op) {
+  assert((op.side + 2) * (op.side + 2) * op.layer.in <= kMostAround);
+  std::vector<std::uint32_t> beyond;
+  if (op.layer.taps > 1) beyond.push_back(op.x.id);
+  add_image(op.map, op.y, std::move(beyond), [this, op](int block, const float* around) {
+    const Layer& layer = layers_[op.layer.id];
+    kernels_.convolution({.x = data(op.x),
+                          .around = around,
+                          .panels = layer.weight.data(),
+                          .bias = layer.bias.data(),
+                          .y = data(op.y) + floats(block * op.side * op.side, op.layer.out),
+                          .side = op.side,
+                          .taps = op.layer.taps,
+                          .in = op.layer.in,
+                          .out = op.layer.out,
+                          .relu = op.relu});
+  });
+}
+
+void Program::record(const ops::MaxPool& op) {
+  add_image(op.map, op.y, {}, [this, op](int block, const float*) {
+    const int places = op.side * op.side;
+    max_pool(data(op.x) + floats(block * places, op.x.columns), op.side, op.x.columns,
+             data(op.y) + floats(block * places / 4, op.x.columns));
+  });
+}
+
+void Program::record(const ops::AddUpsampled& op) {
+  add_image(op.map, op.y, {}, [this, op](int block, const float*) {
+    const int places = op.side * op.side;
+    add_upsampled(data(op.x) + floats(block * places / 4, op.x.columns), op.side, op.x.columns,
+                  data(op.y) + floats(block * places, op.x.columns));
+  });
 }
 
 void Program::record(const ops::Copy& op) {

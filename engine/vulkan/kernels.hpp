@@ -228,6 +228,66 @@ struct MaskFeaturesCall {
   }
 };
 
+struct ConvolutionCall {
+  struct Constants {
+    int lanes;
+    int taps_across;
+    int x_is_texels;
+    int hands_round;
+  };
+  using Push = ConvolutionPush;
+  static constexpr bool kUsesSubgroups = true;
+  static ShaderCode shader() { return shaders::convolution(); }
+
+  Texels x_texels;
+  Reads x;
+  Scalars map;
+  Texels weight_texels;
+  Reads weight;
+  Texels bias;
+  Writes y;
+  [[nodiscard]] std::array<Binding, 7> bindings() const {
+    return {x_texels, x, map, weight_texels, weight, bias, y};
+  }
+};
+
+struct MaxPoolCall {
+  struct Constants {
+    int lanes;
+    int side;
+    int quads;
+    int x_is_texels;
+  };
+  using Push = NoPush;
+  static constexpr bool kUsesSubgroups = true;
+  static ShaderCode shader() { return shaders::max_pool(); }
+
+  Texels x_texels;
+  Reads x;
+  Scalars map;
+  Writes y;
+  [[nodiscard]] std::array<Binding, 4> bindings() const { return {x_texels, x, map, y}; }
+};
+
+struct AddUpsampledCall {
+  struct Constants {
+    int lanes;
+    int side;
+    int quads;
+    int they_are_texels;
+  };
+  using Push = NoPush;
+  static constexpr bool kUsesSubgroups = true;
+  static ShaderCode shader() { return shaders::add_upsampled(); }
+
+  Texels x_texels;
+  Reads x;
+  Scalars map;
+  Texels y_texels;
+  Updates y;
+  [[nodiscard]] std::array<Binding, 5> bindings() const { return {x_texels, x, map, y_texels, y}; }
+};
+
 struct FlowStepCall {
   struct Constants {
     int lanes;

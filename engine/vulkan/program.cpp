@@ -44,6 +44,14 @@ ops::LinearLayer Program::layer(std::string_view name, int out, int in,
   return {static_cast<std::uint32_t>(layers_.size() - 1), in, out};
 }
 
+ops::ConvolutionLayer Program::convolution(std::string_view name, int out, int taps, int in,
+                                           std::span<const float> weight,
+                                           std::span<const float> bias) {
+  choose_gemm_once();
+  convolutions_.push_back(keep_convolution(work_->plan, name, out, taps, in, weight, bias));
+  return {static_cast<std::uint32_t>(convolutions_.size() - 1), in, out, taps};
+}
+
 void Program::record(const ops::Linear& op) {
   record_linear(work_->plan, op, layers_[op.layer.id]);
 }
@@ -77,6 +85,14 @@ void Program::record(const ops::MaskFeatures& op) {
 void Program::record(const ops::FlowStep& op) {
   record_flow_step(work_->plan, op, layers_[op.head.id]);
 }
+
+void Program::record(const ops::Convolution& op) {
+  record_convolution(work_->plan, op, convolutions_[op.layer.id]);
+}
+
+void Program::record(const ops::MaxPool& op) { record_max_pool(work_->plan, op); }
+
+void Program::record(const ops::AddUpsampled& op) { record_add_upsampled(work_->plan, op); }
 
 void Program::record(const ops::Copy& op) {
   assert(op.from.rows == op.to.rows && op.from.columns == op.to.columns);

@@ -40,6 +40,9 @@ class Program final : public ops::Program {
   }
   ops::LinearLayer layer(std::string_view name, int out, int in, std::span<const float> weight,
                          std::span<const float> bias) override;
+  ops::ConvolutionLayer convolution(std::string_view name, int out, int taps, int in,
+                                    std::span<const float> weight,
+                                    std::span<const float> bias) override;
 
   /// On CPU drivers: 257 dispatches there take longer than the sampling itself on the host.
   [[nodiscard]] bool host_samples_points() const override {
@@ -56,6 +59,9 @@ class Program final : public ops::Program {
   void record(const ops::Denormalize& op) override;
   void record(const ops::MaskFeatures& op) override;
   void record(const ops::FlowStep& op) override;
+  void record(const ops::Convolution& op) override;
+  void record(const ops::MaxPool& op) override;
+  void record(const ops::AddUpsampled& op) override;
   void record(const ops::Copy& op) override;
   void stage(std::string_view name) override { work_->plan.stage(name); }
 
@@ -79,7 +85,7 @@ class Program final : public ops::Program {
     VkCommandBuffer commands = VK_NULL_HANDLE;
   };
 
-  /// How dense layers run, before the first is declared.
+  /// How dense layers and convolutions run, before the first is declared.
   void choose_gemm_once();
   [[nodiscard]] Result<void> compile();
   [[nodiscard]] Result<void> record_commands();
@@ -90,6 +96,7 @@ class Program final : public ops::Program {
   std::unique_ptr<Work> work_;
   ProgramOptions options_;
   std::vector<DenseLayer> layers_;
+  std::vector<ConvolutionWeights> convolutions_;
   std::vector<ops::Tensor> params_;
   std::vector<std::pair<ops::Tensor, std::vector<float>>> early_writes_;  // before build()
   bool chosen_ = false;

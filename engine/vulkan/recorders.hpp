@@ -3,6 +3,7 @@
 #pragma once
 
 #include "ops/program.hpp"
+#include "vulkan/convolution_layer.hpp"
 #include "vulkan/dense_layer.hpp"
 #include "vulkan/plan.hpp"
 
@@ -19,6 +20,9 @@ void record_frame_normalization(Plan& plan, const ops::FrameNormalization& op);
 void record_normalize(Plan& plan, const ops::Normalize& op);
 void record_denormalize(Plan& plan, const ops::Denormalize& op);
 void record_mask_features(Plan& plan, const ops::MaskFeatures& op);
+void record_convolution(Plan& plan, const ops::Convolution& op, const ConvolutionWeights& layer);
+void record_max_pool(Plan& plan, const ops::MaxPool& op);
+void record_add_upsampled(Plan& plan, const ops::AddUpsampled& op);
 void record_flow_step(Plan& plan, const ops::FlowStep& op, const DenseLayer& head);
 
 }  // namespace flowdlo::vulkan

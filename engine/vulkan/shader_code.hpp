@@ -14,7 +14,9 @@ struct ShaderCode {
 
 namespace shaders {
 
+[[nodiscard]] ShaderCode add_upsampled();
 [[nodiscard]] ShaderCode attention();
+[[nodiscard]] ShaderCode convolution();
 [[nodiscard]] ShaderCode farthest_points();
 [[nodiscard]] ShaderCode farthest_setup();
 [[nodiscard]] ShaderCode flow_step();
@@ -23,6 +25,7 @@ namespace shaders {
 [[nodiscard]] ShaderCode layer_norm();
 [[nodiscard]] ShaderCode mask_features();
 [[nodiscard]] ShaderCode matrix_gemm();  ///< no words where the GLSL compiler at hand was too old
+[[nodiscard]] ShaderCode max_pool();
 [[nodiscard]] ShaderCode narrow();
 [[nodiscard]] ShaderCode normalize();
 [[nodiscard]] ShaderCode tile_gemm();

@@ -28,6 +28,10 @@ class FaultyProgram final : public ops::Program {
                          std::span<const float> b) override {
     return inner_->layer(n, out, in, w, b);
   }
+  ops::ConvolutionLayer convolution(std::string_view n, int out, int taps, int in,
+                                    std::span<const float> w, std::span<const float> b) override {
+    return inner_->convolution(n, out, taps, in, w, b);
+  }
   void record(const ops::Linear& op) override { inner_->record(op); }
   void record(const ops::Narrow& op) override { inner_->record(op); }
   void record(const ops::LayerNorm& op) override { inner_->record(op); }
@@ -38,6 +42,9 @@ class FaultyProgram final : public ops::Program {
   void record(const ops::Denormalize& op) override { inner_->record(op); }
   void record(const ops::MaskFeatures& op) override { inner_->record(op); }
   void record(const ops::FlowStep& op) override { inner_->record(op); }
+  void record(const ops::Convolution& op) override { inner_->record(op); }
+  void record(const ops::MaxPool& op) override { inner_->record(op); }
+  void record(const ops::AddUpsampled& op) override { inner_->record(op); }
   void record(const ops::Copy& op) override { inner_->record(op); }
   void stage(std::string_view name) override { inner_->stage(name); }
   Result<void> build() override { return inner_->build(); }

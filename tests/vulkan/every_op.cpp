@@ -2,6 +2,8 @@
 
 #include <cstring>
 
+#include "support/block_maps.hpp"
+
 namespace flowdlo::vulkan::testing {
 namespace {
 
@@ -88,6 +90,29 @@ void record_blocks(Trial& trial, const Stream& s, ops::Tensor key_value, ops::Te
       ops::Linear{.x = wide, .layer = trial.layer(256, 1024, 70), .y = s.h, .residual = s.h});
 }
 
+/// Down by two and up again. All blocks are in use: what the rows of others hold is not compared.
+void record_image(Trial& trial) {
+  constexpr int kCapacity = 5;
+  constexpr int kPlaces = kCapacity * 256;  // of side 16
+  const auto map =
+      trial.input(kCapacity, 12, flowdlo::testing::block_map(kCapacity, kCapacity, 3, 6).rows);
+  const auto image = trial.input(kPlaces, 16, noise(kPlaces * 16, 7));
+  const auto fine = trial.output(kPlaces, 32);
+  const auto pooled = trial->scratch("pooled", kPlaces / 4, 32);
+  const auto coarse = trial->scratch("coarse", kPlaces / 4, 32);
+  const auto layer = [&](int taps, int in, std::uint64_t seed) {
+    return trial->convolution("convolution", 32, taps, in,
+                              noise(static_cast<std::size_t>(32 * taps * in), seed, 0.05F),
+                              noise(32, seed + 1));
+  };
+  trial->record(
+      ops::Convolution{.x = image, .map = map, .layer = layer(9, 16, 100), .y = fine, .side = 16});
+  trial->record(ops::MaxPool{.x = fine, .map = map, .y = pooled, .side = 16});
+  trial->record(ops::Convolution{
+      .x = pooled, .map = map, .layer = layer(1, 32, 110), .y = coarse, .side = 8, .relu = false});
+  trial->record(ops::AddUpsampled{.x = coarse, .map = map, .y = fine, .side = 16});
+}
+
 }  // namespace
 
 void record_every_op(Trial& trial) {
@@ -129,6 +154,8 @@ void record_every_op(Trial& trial) {
         .hidden = stream.h, .head = head, .prior = source, .state = state, .t = t, .dt = 0.5F});
   }
   trial->record(ops::Denormalize{.state = state, .norm = norm, .out = nodes_cam});
+  trial->stage("image");
+  record_image(trial);
 }
 
 }  // namespace flowdlo::vulkan::testing
