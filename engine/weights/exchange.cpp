@@ -67,8 +67,8 @@ Result<ws::FdwFile> ws::parse_exchanged(std::span<const std::uint8_t> bytes,
   result.weights.metadata = from_fields(parsed.metadata, faults);
   for (auto& fault : weights::faults(result.weights.metadata)) faults.push_back(std::move(fault));
   const Variant variant = usable(result.weights.metadata.variant);
-  const auto matched = match(parsed.tensors, variant, kReadable, faults);
-  result.weights.tensors = decode(matched, variant, faults);
+  const auto matched = match(parsed.tensors, manifest(variant), kReadable, faults);
+  result.weights.tensors = decode(matched, manifest(variant), faults);
   result.sha256 = digest(matched);
   if (faults.empty()) check_digest(parsed.metadata, result.sha256, faults);
   if (!faults.empty()) return bad_weights(file, faults);

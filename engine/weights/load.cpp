@@ -111,8 +111,8 @@ std::vector<StoredTensor> stored_tensors(const fdw::Weights& root) {
 Weights KeptFile::decoded() const {
   std::vector<std::string> faults;  // none: they were looked for when the file was read
   const auto stored = stored_tensors(*fdw::GetWeights(bytes_.data.get()));
-  const auto matched = match(stored, metadata_.variant, kStorable, faults);
-  return {metadata_, decode(matched, metadata_.variant, faults)};
+  const auto matched = match(stored, manifest(metadata_.variant), kStorable, faults);
+  return {metadata_, decode(matched, manifest(metadata_.variant), faults)};
 }
 
 Result<FdwFile> parse_fdw(std::span<const std::uint8_t> bytes, const std::filesystem::path& file) {
@@ -126,8 +126,8 @@ Result<FdwFile> parse_fdw(std::span<const std::uint8_t> bytes, const std::filesy
   const Variant variant = usable(result.weights.metadata.variant);
 
   const auto stored = stored_tensors(root);
-  const auto matched = match(stored, variant, kStorable, faults);
-  result.weights.tensors = decode(matched, variant, faults);
+  const auto matched = match(stored, manifest(variant), kStorable, faults);
+  result.weights.tensors = decode(matched, manifest(variant), faults);
   result.sha256 = digest(matched);
   // With a tensor missing the digest must differ: that is said already.
   if (faults.empty() && result.sha256 != root.metadata()->sha256()->string_view()) {

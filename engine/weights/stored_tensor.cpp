@@ -144,7 +144,8 @@ std::string finiteness_fault(std::string_view name, std::span<const float> value
 }
 
 std::vector<const StoredTensor*> match(const std::vector<StoredTensor>& stored,
-                                       const Variant& variant, std::span<const DType> dtypes,
+                                       const std::vector<Expected>& manifest,
+                                       std::span<const DType> dtypes,
                                        std::vector<std::string>& faults) {
   std::map<std::string_view, const StoredTensor*> by_name;
   for (const StoredTensor& tensor : stored) {
@@ -153,7 +154,7 @@ std::vector<const StoredTensor*> match(const std::vector<StoredTensor>& stored,
         fmt::format("tensor {}: expected once, got it again; {}", in_quotes(tensor.name), kRemedy));
   }
   std::vector<const StoredTensor*> matched;
-  for (const Expected& expected : manifest(variant)) {
+  for (const Expected& expected : manifest) {
     const auto found = by_name.find(expected.name);
     std::string fault;
     if (found == by_name.end()) {
@@ -175,13 +176,12 @@ std::vector<const StoredTensor*> match(const std::vector<StoredTensor>& stored,
   return matched;
 }
 
-std::vector<Tensor> decode(const std::vector<const StoredTensor*>& matched, const Variant& variant,
-                           std::vector<std::string>& faults) {
-  auto list = manifest(variant);
+std::vector<Tensor> decode(const std::vector<const StoredTensor*>& matched,
+                           std::vector<Expected> manifest, std::vector<std::string>& faults) {
   std::vector<Tensor> tensors;
-  tensors.reserve(list.size());
-  for (std::size_t i = 0; i < list.size(); ++i) {
-    Tensor tensor{std::move(list[i].name), std::move(list[i].shape), {}};
+  tensors.reserve(manifest.size());
+  for (std::size_t i = 0; i < manifest.size(); ++i) {
+    Tensor tensor{std::move(manifest[i].name), std::move(manifest[i].shape), {}};
     if (matched[i] != nullptr) {
       tensor.values.resize(count_of(tensor.shape));
       convert(*matched[i], tensor.values);

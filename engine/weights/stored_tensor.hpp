@@ -27,17 +27,19 @@ struct StoredTensor {
 /// `text` in quotes, made fit for a message: at most 80 characters, printable ASCII.
 [[nodiscard]] std::string in_quotes(std::string_view text);
 
-/// The tensors of `variant`'s manifest, found in `stored` by name, in the manifest's order; null
-/// where one is missing or unfit. Every mismatch of names, shapes, dtypes and sizes goes to
-/// `faults`. `dtypes` lists what the file's kind may hold.
+/// The tensors of a manifest, found in `stored` by name, in the manifest's order; null where one is
+/// missing or unfit. Every mismatch of names, shapes, dtypes and sizes goes to `faults`. `dtypes`
+/// lists what the file's kind may hold.
 [[nodiscard]] std::vector<const StoredTensor*> match(const std::vector<StoredTensor>& stored,
-                                                     const Variant& variant,
+                                                     const std::vector<Expected>& manifest,
                                                      std::span<const DType> dtypes,
                                                      std::vector<std::string>& faults);
 
-/// The values of matched tensors as f32; values that are not finite go to `faults`.
+/// The values of tensors that matched a manifest, as f32; values that are not finite go to
+/// `faults`.
 [[nodiscard]] std::vector<Tensor> decode(const std::vector<const StoredTensor*>& matched,
-                                         const Variant& variant, std::vector<std::string>& faults);
+                                         std::vector<Expected> manifest,
+                                         std::vector<std::string>& faults);
 
 /// SHA-256 of the matched tensors' bytes, one after another.
 [[nodiscard]] std::string digest(const std::vector<const StoredTensor*>& matched);

@@ -30,7 +30,7 @@ std::vector<std::string> faults(const Weights& weights) {
                       {bytes, tensor.values.size() * sizeof(float)}});
   }
   constexpr std::array kInMemory{DType::kF32};
-  const auto matched = match(stored, variant, kInMemory, list);
+  const auto matched = match(stored, manifest(variant), kInMemory, list);
   if (list.empty()) {
     for (std::size_t i = 0; i < stored.size(); ++i) {
       if (matched[i] == &stored[i]) continue;

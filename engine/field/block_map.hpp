@@ -1,0 +1,35 @@
+// BlockMap: which blocks of a region are near the mask, and which lie beside each other. Only these
+// are computed: a thin rope, magnified, would otherwise cost a hundred times its area.
+#pragma once
+
+#include <array>
+#include <opencv2/core.hpp>
+#include <vector>
+
+namespace flowdlo::field {
+
+inline constexpr int kFold = 2;        ///< pixels of the region a place, in u and in v
+inline constexpr int kBlockSide = 16;  ///< places a side of a block, see ops::Convolution
+inline constexpr int kBlock_px = kFold * kBlockSide;
+
+/// Blocks that hold a pixel within this of the mask are computed.
+inline constexpr int kNear_px = 24;
+
+/// Which blocks: row by row.
+struct BlockMap {
+  int columns = 0;
+  int rows = 0;
+  std::vector<cv::Point> blocks;  ///< column and row of each
+  std::vector<int> index;         ///< [rows, columns] into `blocks`, -1: not computed
+
+  /// [9] the blocks around block `i`, itself in the middle, row by row; -1: none.
+  [[nodiscard]] std::array<int, 9> around(std::size_t i) const;
+};
+
+/// `mask`: [height, width] f32, the rope's share of each pixel of a region.
+[[nodiscard]] BlockMap blocks_near(const cv::Mat& mask);
+
+/// The blocks of `map` within `part`, columns and rows, alone.
+[[nodiscard]] BlockMap cut(const BlockMap& map, const cv::Rect& part);
+
+}  // namespace flowdlo::field

@@ -1,0 +1,78 @@
+#include "field/ridge.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "field/channel.hpp"
+#include "field/region.hpp"
+
+namespace flowdlo::field {
+namespace {
+
+const float* pixel(const cv::Mat& field, int u, int v) {
+  return field.ptr<float>(v) + u * kChannels;
+}
+
+/// Bilinear; 0 beyond the image.
+float centre_at(const cv::Mat& field, float u, float v) {
+  const auto left = static_cast<int>(std::floor(u));
+  const auto top = static_cast<int>(std::floor(v));
+  const float s = u - static_cast<float>(left);
+  const float t = v - static_cast<float>(top);
+  const auto at = [&](int x, int y) {
+    const bool inside = x >= 0 && y >= 0 && x < field.cols && y < field.rows;
+    return inside ? pixel(field, x, y)[kCentre] : 0.0F;
+  };
+  return (1 - t) * ((1 - s) * at(left, top) + s * at(left + 1, top)) +
+         t * ((1 - s) * at(left, top + 1) + s * at(left + 1, top + 1));
+}
+
+}  // namespace
+
+std::vector<RidgePoint> ridges(const cv::Mat& field, float least) {
+  std::vector<RidgePoint> found;
+  for (int v = 0; v < field.rows; ++v) {
+    for (int u = 0; u < field.cols; ++u) {
+      const float* const at = pixel(field, u, v);
+      if (at[kCentre] < least) continue;
+      const float angle = 0.5F * std::atan2(at[kSin], at[kCos]);
+      const float across_u = -std::sin(angle);
+      const float across_v = std::cos(angle);
+      const auto x = static_cast<float>(u);
+      const auto y = static_cast<float>(v);
+      const float here = at[kCentre];
+      const float left = centre_at(field, x + across_u, y + across_v);
+      const float right = centre_at(field, x - across_u, y - across_v);
+      if (here < left || here <= right) continue;
+      // The top of the parabola through all three.
+      const float bend = left + right - 2 * here;
+      const float shift = bend < 0 ? std::clamp(0.5F * (right - left) / bend, -0.5F, 0.5F) : 0.0F;
+      found.push_back({{x + shift * across_u, y + shift * across_v}, angle, here});
+    }
+  }
+  return found;
+}
+
+std::vector<Eigen::Vector2f> tips(const cv::Mat& field, float least) {
+  constexpr int kAlone_px = static_cast<int>(kRope_px / 2);  // no other tip within this
+  std::vector<Eigen::Vector2f> found;
+  for (int v = 0; v < field.rows; ++v) {
+    for (int u = 0; u < field.cols; ++u) {
+      const float here = pixel(field, u, v)[kTip];
+      if (here < least) continue;
+      bool highest = true;
+      for (int y = std::max(0, v - kAlone_px); y <= std::min(field.rows - 1, v + kAlone_px); ++y) {
+        for (int x = std::max(0, u - kAlone_px); x <= std::min(field.cols - 1, u + kAlone_px);
+             ++x) {
+          const float other = pixel(field, x, y)[kTip];
+          const bool before = y < v || (y == v && x < u);  // of equals the first
+          highest = highest && (before ? other < here : other <= here);
+        }
+      }
+      if (highest) found.emplace_back(static_cast<float>(u), static_cast<float>(v));
+    }
+  }
+  return found;
+}
+
+}  // namespace flowdlo::field

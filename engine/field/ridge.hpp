@@ -1,0 +1,29 @@
+// Ridge: the axes of strands, where a field's nearness is largest across its direction.
+#pragma once
+
+#include <Eigen/Core>
+#include <opencv2/core.hpp>
+#include <vector>
+
+namespace flowdlo::field {
+
+/// A point on an axis; pixels of the region.
+struct RidgePoint {
+  Eigen::Vector2f px;
+  float angle = 0;     ///< radians from u towards v; a line's, without sense
+  float nearness = 0;  ///< kCentre there
+};
+
+/// Least kCentre of a ridge.
+inline constexpr float kRidge = 0.4F;
+
+/// One pixel or two across, along every strand that shows. `field` [height, width, kChannels].
+[[nodiscard]] std::vector<RidgePoint> ridges(const cv::Mat& field, float least = kRidge);
+
+/// Least kTip of an end.
+inline constexpr float kTipPeak = 0.5F;
+
+/// Where tips are likeliest; pixels of the region.
+[[nodiscard]] std::vector<Eigen::Vector2f> tips(const cv::Mat& field, float least = kTipPeak);
+
+}  // namespace flowdlo::field

@@ -1,0 +1,192 @@
+#include "field/sight.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <opencv2/imgproc.hpp>
+#include <vector>
+
+namespace flowdlo::field {
+namespace {
+
+constexpr float kMost = 3;              // what a plane of the input holds at most
+constexpr float kLeastDepth_m = 1e-6F;  // Sec. 3.2
+constexpr float kHalf = 0.5F;           // share of a pixel that makes it mask, or measured
+constexpr float kLeastSpread = 0.05F;   // of a rope of one colour, 0 to 1
+constexpr int kLeastColored = 20;       // rope pixels that tell its colour
+constexpr int kCell_px = 16;            // of the grid on which the rope's depth is known
+constexpr int kReach = 3;               // cells around that tell it
+constexpr float kFarWeight = 1e-4F;     // of the whole rope's depth, where no cell around has any
+
+cv::Mat resampled(const cv::Mat& image, const cv::Size& size) {
+  cv::Mat result;
+  const bool smaller = size.width < image.cols;
+  cv::resize(image, result, size, 0, 0, smaller ? cv::INTER_AREA : cv::INTER_LINEAR);
+  return result;
+}
+
+/// The middle one; `values` is not empty and is reordered.
+float median(std::vector<float>& values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+/// The rope's colour as the mask shows it, and how much it varies.
+struct Palette {
+  cv::Vec3f middle{0, 0, 0};
+  float spread = 1;
+};
+
+Palette palette_of(const Sight& sight) {
+  std::vector<cv::Vec3f> seen;
+  const auto collect = [&](bool mask_only) {
+    seen.clear();
+    for (int v = 0; v < sight.color.rows; ++v) {
+      const auto* color = sight.color.ptr<cv::Vec3f>(v);
+      const auto* mask = sight.mask.ptr<float>(v);
+      const auto* inside = sight.inside.ptr<float>(v);
+      for (int u = 0; u < sight.color.cols; ++u) {
+        if (inside[u] > kHalf && (!mask_only || mask[u] > kHalf)) seen.push_back(color[u]);
+      }
+    }
+  };
+  collect(true);
+  if (seen.size() < kLeastColored) collect(false);
+  Palette palette;
+  if (seen.empty()) return palette;
+  double deviation = 0;
+  std::vector<float> values(seen.size());
+  for (int k = 0; k < 3; ++k) {
+    double sum = 0;
+    double squares = 0;
+    for (std::size_t i = 0; i < seen.size(); ++i) {
+      values[i] = seen[i][k];
+      sum += static_cast<double>(values[i]);
+      squares += static_cast<double>(values[i]) * static_cast<double>(values[i]);
+    }
+    const auto count = static_cast<double>(seen.size());
+    deviation += std::sqrt(std::max(0.0, squares / count - sum / count * sum / count)) / 3;
+    palette.middle[k] = median(values);
+  }
+  palette.spread = 2 * static_cast<float>(deviation) + kLeastSpread;
+  return palette;
+}
+
+/// Depth of the rope around each place, smooth: the median of each cell of a grid, averaged over
+/// the cells around. Occluders and holes weigh nothing, for they are no mask; a table seen aslant
+/// leaves no steps. Empty where the mask has no depth at all.
+cv::Mat rope_depth(const Sight& sight) {
+  const cv::Size size = sight.depth_m.size();
+  const int columns = (size.width + kCell_px - 1) / kCell_px;
+  const int rows = (size.height + kCell_px - 1) / kCell_px;
+  cv::Mat depth = cv::Mat::zeros(rows, columns, CV_32F);
+  cv::Mat weight = cv::Mat::zeros(rows, columns, CV_32F);
+  std::vector<float> all;
+  std::vector<float> values;
+  for (int row = 0; row < rows; ++row) {
+    for (int column = 0; column < columns; ++column) {
+      values.clear();
+      for (int v = row * kCell_px; v < std::min(size.height, (row + 1) * kCell_px); ++v) {
+        for (int u = column * kCell_px; u < std::min(size.width, (column + 1) * kCell_px); ++u) {
+          const float z = sight.depth_m.at<float>(v, u);
+          if (z > 0 && sight.mask.at<float>(v, u) > kHalf) values.push_back(z);
+        }
+      }
+      if (values.empty()) continue;
+      const float middle = median(values);
+      all.push_back(middle);
+      const auto count = static_cast<float>(values.size());
+      weight.at<float>(row, column) = count;
+      depth.at<float>(row, column) = count * middle;
+    }
+  }
+  if (all.empty()) return {};
+  const float whole = median(all);
+  const cv::Size reach(2 * kReach + 1, 2 * kReach + 1);
+  cv::GaussianBlur(depth, depth, reach, 0, 0, cv::BORDER_CONSTANT);
+  cv::GaussianBlur(weight, weight, reach, 0, 0, cv::BORDER_CONSTANT);
+  const cv::Mat coarse = (depth + kFarWeight * whole) / (weight + kFarWeight);
+  // Cells' centres lie kCell_px apart: the grid reaches beyond the image by less than a cell.
+  cv::Mat fine;
+  cv::resize(coarse, fine, {columns * kCell_px, rows * kCell_px}, 0, 0, cv::INTER_LINEAR);
+  return fine(cv::Rect({0, 0}, size));
+}
+
+float within(float value) { return std::clamp(value, -kMost, kMost); }
+
+}  // namespace
+
+Sight look(const Frame& frame, const Region& region) {
+  const cv::Size size(frame.width, frame.height);
+  const auto part = [&](int type, const void* data) {  // OpenCV has no view of constant pixels
+    return cv::Mat(size, type, const_cast<void*>(data))(region.box);
+  };
+  Sight sight;
+  sight.focal_px = frame.intrinsics.fx * region.scale.x();
+  cv::Mat covered;
+  part(CV_8UC1, frame.mask.data()).convertTo(covered, CV_32F);
+  cv::threshold(covered, covered, 127, 1, cv::THRESH_BINARY);
+  sight.mask = resampled(covered, region.size);
+  const cv::Mat depth_m = part(CV_32FC1, frame.depth_m.data());
+  cv::Mat measured(depth_m.size(), CV_32F);
+  cv::Mat known(depth_m.size(), CV_32F);
+  for (int v = 0; v < depth_m.rows; ++v) {
+    const auto* from = depth_m.ptr<float>(v);
+    for (int u = 0; u < depth_m.cols; ++u) {
+      const bool good = std::isfinite(from[u]) && from[u] > kLeastDepth_m;
+      measured.at<float>(v, u) = good ? 1.0F : 0.0F;
+      known.at<float>(v, u) = good ? from[u] : 0.0F;
+    }
+  }
+  const cv::Mat share = resampled(measured, region.size);
+  sight.depth_m = resampled(known, region.size);
+  for (int v = 0; v < share.rows; ++v) {
+    for (int u = 0; u < share.cols; ++u) {
+      float& z = sight.depth_m.at<float>(v, u);
+      const float by = share.at<float>(v, u);
+      z = by > kHalf ? z / by : 0.0F;
+    }
+  }
+  sight.inside = cv::Mat::ones(region.size, CV_32F);
+  if (!frame.color_bgr.empty()) {
+    cv::Mat color;
+    part(CV_8UC3, frame.color_bgr.data()).convertTo(color, CV_32F, 1.0 / 255);
+    sight.color = resampled(color, region.size);
+  }
+  return sight;
+}
+
+cv::Mat input_of(const Sight& sight) {
+  const cv::Size size = sight.mask.size();
+  cv::Mat input = cv::Mat::zeros(size, CV_32FC(kPlanes));
+  const bool has_color = !sight.color.empty();
+  const Palette palette = has_color ? palette_of(sight) : Palette{};
+  const cv::Mat around = rope_depth(sight);
+  for (int v = 0; v < size.height; ++v) {
+    auto* to = input.ptr<float>(v);
+    const auto* inside = sight.inside.ptr<float>(v);
+    const auto* mask = sight.mask.ptr<float>(v);
+    const auto* depth = sight.depth_m.ptr<float>(v);
+    for (int u = 0; u < size.width; ++u, to += kPlanes) {
+      if (inside[u] <= kHalf) continue;
+      if (has_color) {
+        const auto& color = sight.color.at<cv::Vec3f>(v, u);
+        for (int k = 0; k < 3; ++k) {
+          to[kBlue + k] = within((color[k] - palette.middle[k]) / palette.spread);
+        }
+        to[kHasColor] = 1;
+      }
+      if (depth[u] > 0 && !around.empty()) {
+        const float rope_m = around.at<float>(v, u);
+        const float width_m = kRope_px * rope_m / sight.focal_px;
+        to[kDepth] = within((depth[u] - rope_m) / (2 * width_m));
+        to[kHasDepth] = 1;
+      }
+      to[kMask] = mask[u];
+    }
+  }
+  return input;
+}
+
+}  // namespace flowdlo::field

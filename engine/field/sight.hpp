@@ -1,0 +1,39 @@
+// Sight: what a camera shows of a region, and what of it the network is given.
+#pragma once
+
+#include <opencv2/core.hpp>
+
+#include "field/region.hpp"
+#include "flowdlo/frame.hpp"
+
+namespace flowdlo::field {
+
+/// Images of one size.
+struct Sight {
+  cv::Mat color;       ///< f32 x 3, BGR, 0 to 1; empty: none
+  cv::Mat mask;        ///< f32, 0 to 1: share of the pixel that the mask covers
+  cv::Mat depth_m;     ///< f32, 0: none
+  cv::Mat inside;      ///< f32, 1 within the camera's image, 0 beyond
+  float focal_px = 0;  ///< fx in pixels of this image
+};
+
+/// Expects a valid frame.
+[[nodiscard]] Sight look(const Frame& frame, const Region& region);
+
+/// Planes of the network's input, in this order.
+enum Plane {
+  kBlue,      ///< less the rope's median, over twice the rope's spread; within 3 either way
+  kGreen,     ///< likewise
+  kRed,       ///< likewise
+  kHasColor,  ///< 1 or 0
+  kDepth,     ///< less the depth of the rope around, in units of two rope widths; likewise
+  kHasDepth,  ///< 1 or 0
+  kMask,      ///< 0 to 1
+  kPlanes
+};
+
+/// [height, width, kPlanes] f32: the same for every rope, camera and distance as far as that can be
+/// had. Beyond the camera's image all planes are 0.
+[[nodiscard]] cv::Mat input_of(const Sight& sight);
+
+}  // namespace flowdlo::field

@@ -1,0 +1,72 @@
+#include "field/strand_field.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "field/channel.hpp"
+#include "field/sight.hpp"
+
+namespace flowdlo::field {
+namespace {
+
+constexpr float kSure = 0.5F;  // centre and rope that are asked for the width
+constexpr std::size_t kLeastAsked = 30;
+constexpr int kMostLooks = 3;
+
+cv::Rect mask_box(const Frame& frame) {
+  cv::Point low(frame.width, frame.height);
+  cv::Point high(-1, -1);
+  for (int v = 0; v < frame.height; ++v) {
+    const auto row =
+        frame.mask.subspan(static_cast<std::size_t>(v) * static_cast<std::size_t>(frame.width),
+                           static_cast<std::size_t>(frame.width));
+    for (int u = 0; u < frame.width; ++u) {
+      if (row[static_cast<std::size_t>(u)] <= 127) continue;
+      low = {std::min(low.x, u), std::min(low.y, v)};
+      high = {std::max(high.x, u), std::max(high.y, v)};
+    }
+  }
+  return high.x < 0 ? cv::Rect() : cv::Rect(low, high + cv::Point(1, 1));
+}
+
+/// The rope's width over kRope_px as the field has it, in the middle; 1 where it does not say.
+float seen_width(const cv::Mat& field) {
+  std::vector<float> widths;
+  for (int v = 0; v < field.rows; ++v) {
+    for (int u = 0; u < field.cols; ++u) {
+      const float* const at = field.ptr<float>(v) + u * kChannels;
+      if (at[kCentre] > kSure && at[kRope] > kSure) widths.push_back(at[kWidth]);
+    }
+  }
+  if (widths.size() < kLeastAsked) return 1;
+  const auto middle = widths.begin() + static_cast<std::ptrdiff_t>(widths.size() / 2);
+  std::nth_element(widths.begin(), middle, widths.end());
+  return std::exp2(*middle);
+}
+
+}  // namespace
+
+Result<StrandField> see(const Frame& frame, float rope_width_px, Network& network) {
+  const cv::Rect box = mask_box(frame);
+  if (box.empty()) {
+    return Error{ErrorCode::kNoEvidence,
+                 "field: expected a mask, got none; check the segmentation"};
+  }
+  StrandField result;
+  float width_px = rope_width_px;
+  for (int look = 0; look < kMostLooks; ++look) {
+    result.region = region_around(box, {frame.width, frame.height}, width_px);
+    const Sight sight = field::look(frame, result.region);
+    auto seen = network.see(input_of(sight), blocks_near(sight.mask));
+    if (!seen) return seen.error();
+    result.channels = *std::move(seen);
+    const float share = seen_width(result.channels);
+    const bool magnified = kRope_px / width_px >= kMostScale;
+    if (share >= kNarrow || magnified) break;
+    width_px *= share;
+  }
+  return result;
+}
+
+}  // namespace flowdlo::field

@@ -1,0 +1,26 @@
+// StrandField: what a small network sees of each pixel around the mask.
+#pragma once
+
+#include <opencv2/core.hpp>
+
+#include "field/network.hpp"
+#include "field/region.hpp"
+#include "flowdlo/frame.hpp"
+
+namespace flowdlo::field {
+
+struct StrandField {
+  Region region;
+  cv::Mat channels;  ///< [height, width, kChannels] of the region; no rope far from the mask
+};
+
+/// A rope is at least so wide in the region for the field to part strands: narrower than believed.
+inline constexpr float kNarrow = 0.7F;
+
+/// `rope_width_px` is the rope's width in the frame as far as it is known. Where the field itself
+/// says that the rope is narrower than kNarrow of that, as in a mask that merges strands, it is
+/// asked again at the width that it says. Expects a valid frame with a mask. Fails with kNoEvidence
+/// where the mask is empty, or as Network::see does.
+[[nodiscard]] Result<StrandField> see(const Frame& frame, float rope_width_px, Network& network);
+
+}  // namespace flowdlo::field

@@ -1,0 +1,160 @@
+#include "weights/field_weights.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <charconv>
+#include <cmath>
+#include <map>
+
+#include "files/whole_file.hpp"
+#include "random/philox.hpp"
+#include "weights/fdw.hpp"
+#include "weights/file.hpp"
+#include "weights/safetensors.hpp"
+#include "weights/stored_tensor.hpp"
+
+namespace flowdlo::weights {
+namespace {
+
+constexpr std::array kReadable{DType::kF32, DType::kF16};
+constexpr int kMostChannels = 1024;
+constexpr int kChannelStep = 16;
+
+using Fields = std::map<std::string, std::string>;
+
+std::string text_of(const Fields& fields, const char* key, std::vector<std::string>& faults) {
+  const auto found = fields.find(key);
+  if (found != fields.end()) return found->second;
+  faults.push_back(fmt::format("metadata {}: expected text, got none", key));
+  return {};
+}
+
+int channels_of(const Fields& fields, const char* key, std::vector<std::string>& faults) {
+  const std::string text = text_of(fields, key, faults);
+  int value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  const bool whole = error == std::errc() && end == text.data() + text.size();
+  if (whole && value > 0 && value <= kMostChannels && value % kChannelStep == 0) return value;
+  faults.push_back(fmt::format("metadata {}: expected a multiple of {} up to {}, got {}", key,
+                               kChannelStep, kMostChannels, in_quotes(text)));
+  return kChannelStep;
+}
+
+}  // namespace
+
+const Tensor& FieldWeights::at(std::string_view wanted) const {
+  const auto found = std::find_if(tensors.begin(), tensors.end(),
+                                  [wanted](const Tensor& tensor) { return tensor.name == wanted; });
+  assert(found != tensors.end());
+  return *found;
+}
+
+std::vector<Expected> field_manifest(const FieldSizes& sizes) {
+  const auto [fine, middle, coarse] = sizes;
+  std::vector<Expected> expected;
+  const auto add = [&](const std::string& name, int out, int taps, int in) {
+    expected.push_back({name + ".weight", {out, taps, in}});
+    expected.push_back({name + ".bias", {out}});
+  };
+  constexpr int kSquare = 9;
+  add("down_fine.0", fine, kSquare, kFieldInputs);
+  add("down_fine.1", fine, kSquare, fine);
+  add("down_middle.0", middle, kSquare, fine);
+  add("down_middle.1", middle, kSquare, middle);
+  add("coarse.0", coarse, kSquare, middle);
+  add("coarse.1", coarse, kSquare, coarse);
+  add("coarse.2", coarse, kSquare, coarse);
+  add("to_middle", middle, 1, coarse);
+  add("up_middle.0", middle, kSquare, middle);
+  add("up_middle.1", middle, kSquare, middle);
+  add("to_fine", fine, 1, middle);
+  add("up_fine.0", fine, kSquare, fine);
+  add("up_fine.1", fine, kSquare, fine);
+  add("head", kFieldOutputs, 1, fine);
+  return expected;
+}
+
+Result<FieldWeights> load_field(const std::filesystem::path& file) {
+  const auto bytes = read_file(file);
+  if (!bytes) return bytes.error();
+  std::vector<std::string> faults;
+  const auto parsed = parse_safetensors(bytes->view(), faults);
+  if (!faults.empty()) return bad_weights(file, faults);
+  FieldWeights weights;
+  weights.name = text_of(parsed.metadata, "name", faults);
+  weights.training_data = text_of(parsed.metadata, "training_data", faults);
+  weights.notes = text_of(parsed.metadata, "notes", faults);
+  weights.sizes = {channels_of(parsed.metadata, "fine", faults),
+                   channels_of(parsed.metadata, "middle", faults),
+                   channels_of(parsed.metadata, "coarse", faults)};
+  if (!faults.empty()) return bad_weights(file, faults);
+  const auto manifest = field_manifest(weights.sizes);
+  const auto matched = match(parsed.tensors, manifest, kReadable, faults);
+  weights.tensors = decode(matched, manifest, faults);
+  const std::string expected = text_of(parsed.metadata, "sha256", faults);
+  const std::string got = digest(matched);
+  if (faults.empty() && expected != got) {
+    faults.push_back(fmt::format("tensors: expected SHA-256 {}, got {}; copy or export it again",
+                                 in_quotes(expected), got));
+  }
+  if (!faults.empty()) return bad_weights(file, faults);
+  return weights;
+}
+
+Result<void> save_field(const FieldWeights& weights, const std::filesystem::path& file) {
+  std::vector<std::string> faults;
+  std::vector<std::vector<std::uint8_t>> encoded;
+  std::vector<StoredTensor> stored;
+  for (const Tensor& tensor : weights.tensors) {
+    auto fault = finiteness_fault(tensor.name, tensor.values);
+    if (!fault.empty()) faults.push_back(std::move(fault));
+    encoded.push_back(encode(tensor, StorageType::kF16, faults));
+  }
+  std::vector<const StoredTensor*> all;
+  for (std::size_t i = 0; i < weights.tensors.size(); ++i) {
+    const Tensor& tensor = weights.tensors[i];
+    stored.push_back(
+        {tensor.name, {tensor.shape.begin(), tensor.shape.end()}, DType::kF16, "f16", encoded[i]});
+  }
+  for (const StoredTensor& tensor : stored) all.push_back(&tensor);
+  const auto manifest = field_manifest(weights.sizes);
+  constexpr std::array kHalf{DType::kF16};
+  (void)match(stored, manifest, kHalf, faults);
+  if (!faults.empty()) return bad_weights(file, faults);
+  const Fields fields{{"name", weights.name},
+                      {"training_data", weights.training_data},
+                      {"notes", weights.notes},
+                      {"fine", std::to_string(weights.sizes.fine)},
+                      {"middle", std::to_string(weights.sizes.middle)},
+                      {"coarse", std::to_string(weights.sizes.coarse)},
+                      {"sha256", digest(all)}};
+  const std::string header = safetensors_header(fields, stored);
+  const auto* header_bytes = reinterpret_cast<const std::uint8_t*>(header.data());
+  std::vector<std::span<const std::uint8_t>> parts{{header_bytes, header.size()}};
+  parts.insert(parts.end(), encoded.begin(), encoded.end());
+  return files::write_file(file, parts);
+}
+
+FieldWeights seeded_field(const FieldSizes& sizes, std::uint64_t seed) {
+  FieldWeights weights{"seeded noise", "none", "", sizes, {}};
+  std::uint64_t stream = 0;
+  for (Expected& expected : field_manifest(sizes)) {
+    Tensor tensor{std::move(expected.name), std::move(expected.shape), {}};
+    std::size_t count = 1;
+    for (const int extent : tensor.shape) count *= static_cast<std::size_t>(extent);
+    const bool bias = tensor.shape.size() == 1;
+    const double inputs = bias ? 100 : tensor.shape[1] * tensor.shape[2];
+    const auto deviation = static_cast<float>(std::sqrt(2 / inputs));
+    for (std::size_t i = 0; i < count; ++i) {
+      tensor.values.push_back(deviation * random::gaussian(seed, i / 4, stream)[i % 4]);
+    }
+    ++stream;
+    weights.tensors.push_back(std::move(tensor));
+  }
+  return weights;
+}
+
+}  // namespace flowdlo::weights

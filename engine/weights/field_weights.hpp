@@ -1,0 +1,54 @@
+// FieldWeights: the network of room `field`, as a .safetensors file beside the velocity model's.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "flowdlo/result.hpp"
+#include "weights/weights.hpp"
+
+namespace flowdlo::weights {
+
+/// Inputs and outputs of the network for each 2 x 2 pixels: seven planes and ten channels of each
+/// pixel, rounded up to what kernels take. What is beyond is zero.
+inline constexpr int kFieldInputs = 32;
+inline constexpr int kFieldOutputs = 48;
+
+/// Channels inside the network; multiples of 16.
+struct FieldSizes {
+  int fine = 32;    ///< at half the region's size,
+  int middle = 48;  ///< at a quarter,
+  int coarse = 96;  ///< and at an eighth
+
+  friend bool operator==(const FieldSizes&, const FieldSizes&) = default;
+};
+
+struct FieldWeights {
+  std::string name;
+  std::string training_data;  ///< "none" for seeded noise
+  std::string notes;          ///< free text: training command, device, validation table
+  FieldSizes sizes;
+  std::vector<Tensor> tensors;  ///< exactly field_manifest()'s, in its order
+
+  /// The tensor of that name. It must be one of the manifest's.
+  [[nodiscard]] const Tensor& at(std::string_view name) const;
+};
+
+/// Names and shapes: of each convolution a weight [out, taps, in] and a bias [out], with the batch
+/// norm behind it folded in.
+[[nodiscard]] std::vector<Expected> field_manifest(const FieldSizes& sizes);
+
+/// Fails with kIo or kBadWeights, listing every mismatch.
+[[nodiscard]] Result<FieldWeights> load_field(const std::filesystem::path& file);
+
+/// As f16. Fails with kBadWeights where a value is too large for that, with kIo where the file
+/// cannot be written.
+[[nodiscard]] Result<void> save_field(const FieldWeights& weights,
+                                      const std::filesystem::path& file);
+
+/// Noise of the size that keeps activations as large as inputs: the same values on every machine.
+[[nodiscard]] FieldWeights seeded_field(const FieldSizes& sizes, std::uint64_t seed);
+
+}  // namespace flowdlo::weights

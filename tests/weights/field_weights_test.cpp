@@ -1,0 +1,108 @@
+#include "weights/field_weights.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <limits>
+
+#include "frame/temporary_folder.hpp"
+
+namespace flowdlo::weights {
+namespace {
+
+using testing::HasSubstr;
+
+class FieldWeightsTest : public ::testing::Test {
+ protected:
+  [[nodiscard]] std::filesystem::path file() const { return folder_.path() / "field.safetensors"; }
+  [[nodiscard]] std::string text() const {
+    std::ifstream stream(file(), std::ios::binary);
+    return {std::istreambuf_iterator<char>(stream), {}};
+  }
+  void write(const std::string& bytes) const {
+    std::ofstream(file(), std::ios::binary) << bytes;
+  }
+  [[nodiscard]] std::string fault() const {
+    const auto loaded = load_field(file());
+    return loaded ? "" : loaded.error().message;
+  }
+
+  test::TemporaryFolder folder_;
+  FieldWeights weights_ = seeded_field({16, 32, 48}, 9);
+};
+
+TEST_F(FieldWeightsTest, ComesBackWithinTheRoundingOfF16) {
+  weights_.name = "field of a test";
+  weights_.notes = "notes, \"quoted\"";
+  ASSERT_TRUE(save_field(weights_, file()));
+  const auto loaded = load_field(file());
+  ASSERT_TRUE(loaded) << loaded.error().message;
+  EXPECT_EQ(loaded->name, weights_.name);
+  EXPECT_EQ(loaded->notes, weights_.notes);
+  EXPECT_EQ(loaded->sizes, weights_.sizes);
+  ASSERT_EQ(loaded->tensors.size(), weights_.tensors.size());
+  for (std::size_t t = 0; t < weights_.tensors.size(); ++t) {
+    EXPECT_EQ(loaded->tensors[t].shape, weights_.tensors[t].shape);
+    for (std::size_t i = 0; i < weights_.tensors[t].values.size(); ++i) {
+      const float want = weights_.tensors[t].values[i];
+      ASSERT_NEAR(loaded->tensors[t].values[i], want, 1e-3F * std::abs(want) + 1e-7F);
+    }
+  }
+}
+
+TEST_F(FieldWeightsTest, ManifestHasAWeightAndABiasOfEveryConvolution) {
+  const auto manifest = field_manifest({16, 32, 48});
+  ASSERT_EQ(manifest.size(), 28U);
+  EXPECT_EQ(manifest.front().name, "down_fine.0.weight");
+  EXPECT_EQ(manifest.front().shape, (std::vector<int>{16, 9, kFieldInputs}));
+  EXPECT_EQ(manifest.back().name, "head.bias");
+  EXPECT_EQ(manifest.back().shape, std::vector<int>{kFieldOutputs});
+}
+
+TEST_F(FieldWeightsTest, AMissingFileSaysSo) { EXPECT_THAT(fault(), HasSubstr("field.safetensors")); }
+
+TEST_F(FieldWeightsTest, AChangedBitIsFound) {
+  ASSERT_TRUE(save_field(weights_, file()));
+  std::string bytes = text();
+  bytes[bytes.size() - 3] = static_cast<char>(bytes[bytes.size() - 3] ^ 1);
+  write(bytes);
+  EXPECT_THAT(fault(), HasSubstr("SHA-256"));
+}
+
+TEST_F(FieldWeightsTest, AFileThatEndsEarlyIsRefused) {
+  ASSERT_TRUE(save_field(weights_, file()));
+  const std::string bytes = text();
+  for (const std::size_t size : {std::size_t{0}, std::size_t{5}, bytes.size() / 2, bytes.size() - 1}) {
+    write(bytes.substr(0, size));
+    EXPECT_NE(fault(), "") << size;
+  }
+}
+
+TEST_F(FieldWeightsTest, SizesThatNoKernelTakesAreRefused) {
+  ASSERT_TRUE(save_field(weights_, file()));
+  std::string bytes = text();
+  const auto at = bytes.find("\"fine\":\"16\"");
+  ASSERT_NE(at, std::string::npos);
+  bytes.replace(at, 11, "\"fine\":\"17\"");
+  write(bytes);
+  EXPECT_THAT(fault(), HasSubstr("metadata fine: expected a multiple of 16"));
+}
+
+TEST_F(FieldWeightsTest, WhatIsNoNumberIsNotWritten) {
+  weights_.tensors[3].values[0] = std::numeric_limits<float>::quiet_NaN();
+  const auto saved = save_field(weights_, file());
+  ASSERT_FALSE(saved);
+  EXPECT_EQ(saved.error().code, ErrorCode::kBadWeights);
+  EXPECT_FALSE(std::filesystem::exists(file()));
+}
+
+TEST_F(FieldWeightsTest, TensorsOfAnotherNetworkAreRefused) {
+  weights_.tensors.pop_back();
+  EXPECT_FALSE(save_field(weights_, file()));
+}
+
+}  // namespace
+}  // namespace flowdlo::weights
