@@ -109,6 +109,22 @@ float braid(const View& view, const Surface& seen, const Vector3f& point, double
   return 1.0F + 0.12F * static_cast<float>(weave);
 }
 
+/// [height, width]
+std::vector<bool> within(std::span<const Window> windows, const View& view) {
+  const int width = view.sensor->width;
+  const int height = view.sensor->height;
+  std::vector<bool> wanted(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+  for (const Window& window : windows) {
+    for (int v = std::max(0, window.top); v < std::min(height, window.bottom); ++v) {
+      const auto row = wanted.begin() + static_cast<std::ptrdiff_t>(v) * width;
+      const int left = std::clamp(window.left, 0, width);
+      const int right = std::clamp(window.right, left, width);
+      std::fill(row + left, row + right, true);
+    }
+  }
+  return wanted;
+}
+
 std::uint8_t byte(float value) {
   return static_cast<std::uint8_t>(std::clamp(value, 0.0F, 255.0F) + 0.5F * (value < 254.0F));
 }
@@ -121,7 +137,8 @@ const Material& draw_material(Dice& dice) {
 
 std::vector<std::uint8_t> colored(const View& view, const Tracer& tracer, const Picture& picture,
                                   std::span<const Thing> things, const Material& material,
-                                  double radius_m, bool lively, Dice& dice) {
+                                  double radius_m, bool lively, std::span<const Window> windows,
+                                  Dice& dice) {
   const auto width = static_cast<std::size_t>(view.sensor->width);
   const std::size_t pixels = picture.depth_m.size();
   const Shader shader{view, tracer, draw_light(view, dice)};
@@ -135,9 +152,10 @@ std::vector<std::uint8_t> colored(const View& view, const Tracer& tracer, const 
                     (static_cast<float>(pixel / width) - view.camera.cy) / view.camera.fy, 1);
   };
   std::vector<Vector3f> image(pixels, Vector3f::Constant(25));
-  std::vector<bool> in_front(pixels, false);
+  std::vector<bool> wanted = within(windows, view);
   for (const Surface& seen : picture.surfaces) {
-    in_front[seen.pixel] = true;
+    if (!wanted[seen.pixel]) continue;
+    wanted[seen.pixel] = false;  // done
     const Vector3f point = seen.z_m * ray_of(seen.pixel);
     const bool rope = seen.thing == kRopeThing;
     Vector3f albedo = (rope ? material.color_bgr : things[seen.thing].color_bgr).cast<float>();
@@ -145,12 +163,14 @@ std::vector<std::uint8_t> colored(const View& view, const Tracer& tracer, const 
     image[seen.pixel] = shader.shade(albedo, point, seen.normal, rope ? gloss : 0.5F * gloss);
   }
   for (std::size_t i = 0; i < pixels; ++i) {
-    if (in_front[i] || picture.depth_m[i] <= 0) continue;
+    if (!wanted[i] || picture.depth_m[i] <= 0) continue;
     const Vector3f point = picture.depth_m[i] * ray_of(i);
     image[i] = shader.shade(ground.at(point), point, ground_normal, 0);
   }
   std::vector<std::uint8_t> bgr(3 * pixels);
+  wanted = within(windows, view);
   for (std::size_t i = 0; i < pixels; ++i) {
+    if (!wanted[i]) continue;
     const float jitter = grain * noise.bell(static_cast<std::uint32_t>(i), 0);
     for (int k = 0; k < 3; ++k)
       bgr[3 * i + static_cast<std::size_t>(k)] = byte(image[i][k] + jitter);

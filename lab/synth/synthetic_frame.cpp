@@ -192,10 +192,15 @@ SyntheticFrame Scene::taken(const Render& render) const {
       measured_depth(view, picture_, stage_.rope.radius_m, stage_.faults.depth, sensor.word());
   folder.mask = segmented_mask(view, picture_, stage_.faults.mask, mask.word());
   folder.truth = nodes_of(view.curve);
+  if (render.dense) {
+    result.dense = {{view.curve}, stage_.rope.radius_m, picture_.depth_m, picture_.mask};
+  }
   if (render.color) {
     Dice light(key_, Use::kLook, render.frame + 1);
+    const auto windows = render.windows ? render.windows(result)
+                                        : std::vector<Window>{{0, 0, folder.width, folder.height}};
     folder.color_bgr = colored(view, *tracer_, picture_, stage_.things, *material_,
-                               stage_.rope.radius_m, key_.split == Split::kWide, light);
+                               stage_.rope.radius_m, key_.split == Split::kWide, windows, light);
   }
   find(view, stage_.rope, picture_, folder.depth_m, folder.mask, result.meta);
   note(stage_.faults, stage_.things, picture_, folder.depth_m, folder.mask, result.meta);

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -14,6 +15,7 @@
 #include "flowdlo/frame.hpp"
 #include "flowdlo/frame_folder.hpp"
 #include "flowdlo/result.hpp"
+#include "synth/curve.hpp"
 
 namespace flowdlo::synth {
 
@@ -109,9 +111,18 @@ struct Meta {
 /// "000012_coil", and "_003" behind it for any frame but 0. From scenario, index and frame alone.
 [[nodiscard]] std::string folder_name(const Meta& meta);
 
+/// Where every rope of a scene runs, and what an ideal camera would see of it.
+struct DenseTruth {
+  std::vector<Curve> curves;       ///< camera frame; samples half a radius apart or less
+  double radius_m = 0;             ///< of all of them
+  std::vector<float> depth_m;      ///< [height, width], without noise; 0: nothing in reach
+  std::vector<std::uint8_t> mask;  ///< [height, width], 255: rope
+};
+
 struct SyntheticFrame {
   FrameFolder folder;  ///< owns the pixels; its truth is always set
   Meta meta;
+  std::optional<DenseTruth> dense;  ///< where Render::dense asks for it
 
   /// Views into this object.
   [[nodiscard]] Frame frame() const { return folder.frame(); }
@@ -119,11 +130,23 @@ struct SyntheticFrame {
   [[nodiscard]] const Centerline& truth() const { return *folder.truth; }
 };
 
+/// Part of an image, pixels; `right` and `bottom` lie beyond it.
+struct Window {
+  int left = 0;
+  int top = 0;
+  int right = 0;
+  int bottom = 0;
+};
+
 /// What to render besides depth and mask.
 struct Render {
   bool color = true;  ///< false: color_bgr stays empty, for training records; all else is the same
   int frame = 0;      ///< of this static scene; others differ in sensor noise and light alone.
                       ///< 0 plays the role of the thesis' representative frame 50, Sec. 4.1.1
+  bool dense = false;  ///< fill SyntheticFrame::dense
+  /// The only parts that get colours, of a frame that has all but these; the rest stays black.
+  /// Colours take most of a frame's time. Empty: everything.
+  std::function<std::vector<Window>(const SyntheticFrame&)> windows = {};
 };
 
 /// Scenes of a part: 234 and 59 for kThesis, as Sec. 4.1.1; 0 for kWide: no end.
