@@ -21,6 +21,7 @@ int main(int argc, char** argv) {
   add_export_command(app, exit_code);
   add_golden_command(app, exit_code);
   add_curves_command(app, exit_code);
+  add_field_commands(app, argc, argv, exit_code);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& end) {  // --help and --version come this way as well

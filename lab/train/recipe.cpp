@@ -2,23 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <array>
-#include <cmath>
-#include <fstream>
-#include <iterator>
-#include <limits>
-#include <nlohmann/json.hpp>
-#include <set>
 #include <utility>
 #include <vector>
 
+#include "train/json_visitor.hpp"
+
 namespace flowdlo::train {
 namespace {
-
-using Json = nlohmann::ordered_json;
-
-template <class T>
-using Names = std::vector<std::pair<const char*, T>>;
 
 const Names<ops::Parameterization>& parameterizations() {
   static const Names<ops::Parameterization> names{
@@ -123,132 +113,6 @@ void visit(Visitor& visitor, Recipe& recipe) {
   });
 }
 
-class ReadVisitor {
- public:
-  ReadVisitor(const Json& json, std::string path, std::vector<std::string>& faults)
-      : json_(json), path_(std::move(path)), faults_(faults) {}
-
-  void text(const char* key, std::string& value) {
-    if (const Json* found = find(key)) {
-      if (found->is_string()) {
-        value = found->get<std::string>();
-      } else {
-        fault(key, "text", *found);
-      }
-    }
-  }
-  void flag(const char* key, bool& value) {
-    if (const Json* found = find(key)) {
-      if (found->is_boolean()) {
-        value = found->get<bool>();
-      } else {
-        fault(key, "true or false", *found);
-      }
-    }
-  }
-  template <class T>
-  void whole(const char* key, T& value, double least, double most) {
-    const Json* found = find(key);
-    if (found == nullptr) return;
-    const double number = found->is_number() ? found->get<double>() : least - 1;
-    if (number < least || number > most || number != std::floor(number)) {
-      fault(key, fmt::format("a whole number from {} to {}", least, most), *found);
-    } else {
-      value = static_cast<T>(number);
-    }
-  }
-  template <class T>
-  void real(const char* key, T& value, double least, double most) {
-    const Json* found = find(key);
-    if (found == nullptr) return;
-    const double number = found->is_number() ? found->get<double>() : least - 1;
-    if (number >= least && number <= most) {
-      value = static_cast<T>(number);
-    } else {
-      fault(key, fmt::format("a number from {} to {}", least, most), *found);
-    }
-  }
-  template <class T>
-  void choice(const char* key, T& value, const Names<T>& names) {
-    const Json* found = find(key);
-    if (found == nullptr) return;
-    std::string expected;
-    for (const auto& [name, choice] : names) {
-      if (found->is_string() && found->get<std::string>() == name) {
-        value = choice;
-        return;
-      }
-      expected += (expected.empty() ? "" : ", ") + std::string(name);
-    }
-    fault(key, "one of " + expected, *found);
-  }
-  template <class Body>
-  void group(const char* key, const Body& body) {
-    const Json* found = find(key);
-    if (found == nullptr) return;
-    if (!found->is_object()) {
-      fault(key, "an object", *found);
-      return;
-    }
-    ReadVisitor inside(*found, path_ + key + ".", faults_);
-    body(inside);
-    inside.refuse_unknown();
-  }
-  void refuse_unknown() {
-    for (const auto& [key, value] : json_.items()) {
-      if (!known_.contains(key)) faults_.push_back(fmt::format("{}{}: unknown key", path_, key));
-    }
-  }
-
- private:
-  const Json* find(const char* key) {
-    known_.insert(key);
-    const auto found = json_.find(key);
-    return found == json_.end() ? nullptr : &*found;
-  }
-  void fault(const char* key, const std::string& expected, const Json& got) {
-    faults_.push_back(fmt::format("{}{}: expected {}, got {}", path_, key, expected, got.dump()));
-  }
-
-  const Json& json_;
-  std::string path_;
-  std::vector<std::string>& faults_;
-  std::set<std::string> known_;
-};
-
-class WriteVisitor {
- public:
-  void text(const char* key, const std::string& value) { json_[key] = value; }
-  void flag(const char* key, bool value) { json_[key] = value; }
-  template <class T>
-  void whole(const char* key, T value, double /*least*/, double /*most*/) {
-    json_[key] = value;
-  }
-  void real(const char* key, double value, double /*least*/, double /*most*/) {
-    json_[key] = value;
-  }
-  void real(const char* key, float value, double /*least*/, double /*most*/) {
-    // The shortest decimal that is this float, not the double's digits.
-    json_[key] = std::stod(fmt::format("{}", value));
-  }
-  template <class T>
-  void choice(const char* key, T value, const Names<T>& names) {
-    for (const auto& [name, choice] : names) {
-      if (choice == value) json_[key] = name;
-    }
-  }
-  template <class Body>
-  void group(const char* key, const Body& body) {
-    WriteVisitor inside;
-    body(inside);
-    json_[key] = inside.json_;
-  }
-  [[nodiscard]] std::string dump() const { return json_.dump(2); }
-
- private:
-  Json json_;
-};
-
 void check_together(const Recipe& recipe, std::vector<std::string>& faults) {
   if (recipe.variant.local_channels == 7) {
     faults.emplace_back("variant.local_channels: expected 6 or 8, got 7");
@@ -262,33 +126,15 @@ void check_together(const Recipe& recipe, std::vector<std::string>& faults) {
 }  // namespace
 
 Result<Recipe> parse_recipe(const std::string& json, const std::string& where) {
-  const Json parsed = Json::parse(json, nullptr, /*allow_exceptions=*/false);
-  std::vector<std::string> faults;
-  Recipe recipe;
-  if (!parsed.is_object()) {
-    faults.emplace_back("expected a JSON object");
-  } else {
-    ReadVisitor visitor(parsed, "", faults);
-    visit(visitor, recipe);
-    visitor.refuse_unknown();
-    check_together(recipe, faults);
-  }
-  if (faults.empty()) return recipe;
-  std::string message;
-  for (const std::string& fault : faults) {
-    message += fmt::format("{}{}: {}", message.empty() ? "" : "\n", where, fault);
-  }
-  return Error{ErrorCode::kBadInput, message};
+  return parse_fields<Recipe>(
+      json, where, [](ReadVisitor& visitor, Recipe& recipe) { visit(visitor, recipe); },
+      check_together);
 }
 
 Result<Recipe> read_recipe(const std::filesystem::path& file) {
-  std::ifstream stream(file);
-  if (!stream) {
-    return Error{ErrorCode::kIo,
-                 fmt::format("{}: expected a readable recipe; check the path", file.string())};
-  }
-  const std::string text((std::istreambuf_iterator<char>(stream)), {});
-  return parse_recipe(text, file.string());
+  const auto text = recipe_text(file);
+  if (!text) return text.error();
+  return parse_recipe(*text, file.string());
 }
 
 std::string to_json(const Recipe& recipe) {

@@ -1,0 +1,265 @@
+// flowdlo_field_report: what a strand field finds on scenes with truth, beside thinning of the
+// mask.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <opencv2/imgcodecs.hpp>
+#include <string>
+#include <vector>
+
+#include "field/channel.hpp"
+#include "field/sight.hpp"
+#include "field/strand_field.hpp"
+#include "path/path.hpp"
+#include "reference/program.hpp"
+#include "strand/measure.hpp"
+#include "threads/count.hpp"
+#include "threads/team.hpp"
+
+namespace {
+
+using flowdlo::strand::Counts;
+namespace field = flowdlo::field;
+namespace strand = flowdlo::strand;
+namespace synth = flowdlo::synth;
+
+struct Options {
+  std::filesystem::path weights;
+  std::string part = "validation";
+  std::uint64_t first = 0;
+  std::uint64_t scenes = 100;
+  std::string drop = "nothing";
+  double width = 1;
+  bool width_of_mask = false;
+  int threads = 0;
+  std::filesystem::path pictures;
+  std::size_t worst = 12;
+};
+
+/// What one scene gave.
+struct Outcome {
+  std::uint64_t index = 0;
+  std::string scenario;
+  double width_px = 0;
+  Counts field;
+  Counts thinning;
+  double ms = 0;
+  std::size_t blocks = 0;
+};
+
+double percent(long part, long whole) {
+  return whole > 0 ? 100.0 * static_cast<double>(part) / static_cast<double>(whole) : 100.0;
+}
+
+std::string row(const std::string& name, std::size_t scenes, const Counts& c) {
+  return fmt::format(
+      "| {} | {} | {:.1f} / {:.1f} | {:.1f} / {:.1f} | {:.1f} / {:.1f} | {:.1f} of {} |\n", name,
+      scenes, percent(c.found, c.places), percent(c.right, c.shown),
+      percent(c.merged_found, c.merged_places), percent(c.merged_right, c.merged_shown),
+      percent(c.ends_found, c.ends), percent(c.tips_right, c.tips),
+      percent(c.crossings_right, c.crossings), c.crossings);
+}
+
+/// A frame without its colour or its depth.
+struct Dropped {
+  std::vector<float> depth_m;
+  flowdlo::Frame frame;
+
+  Dropped(const flowdlo::Frame& whole, const std::string& drop) : frame(whole) {
+    if (drop == "color" || drop == "both") frame.color_bgr = {};
+    if (drop == "depth" || drop == "both") {
+      depth_m.assign(whole.depth_m.size(), 0);
+      frame.depth_m = depth_m;
+    }
+  }
+};
+
+double true_width_px(const synth::SyntheticFrame& scene) {
+  double depth = 0;
+  for (const auto& node : scene.truth()) depth += static_cast<double>(node.z) / flowdlo::kNodes;
+  return 2 * scene.dense->radius_m * static_cast<double>(scene.folder.intrinsics.fx) / depth;
+}
+
+/// The region in colour, the mask, and the field's centre and direction, tips and edges, side by
+/// side; where places were missed they are marked.
+cv::Mat picture(const flowdlo::Frame& frame, const field::StrandField& seen) {
+  const field::Sight sight = field::look(frame, seen.region);
+  const cv::Size size = seen.channels.size();
+  cv::Mat result(size.height, 4 * size.width, CV_8UC3, cv::Scalar::all(0));
+  const auto byte = [](float value) { return cv::saturate_cast<std::uint8_t>(255 * value); };
+  for (int v = 0; v < size.height; ++v) {
+    for (int u = 0; u < size.width; ++u) {
+      const float* const at = seen.channels.ptr<float>(v) + u * field::kChannels;
+      auto* const to = result.ptr<cv::Vec3b>(v) + u;
+      if (!sight.color.empty()) {
+        const auto& c = sight.color.at<cv::Vec3f>(v, u);
+        to[0] = {byte(c[0]), byte(c[1]), byte(c[2])};
+      }
+      to[size.width] = cv::Vec3b::all(byte(sight.mask.at<float>(v, u)));
+      const float length = std::max(1e-3F, std::hypot(at[field::kCos], at[field::kSin]));
+      const float centre = at[field::kCentre];
+      to[2 * size.width] = {byte(centre * (0.5F + 0.5F * at[field::kCos] / length)),
+                            byte(centre * (0.5F + 0.5F * at[field::kSin] / length)), byte(centre)};
+      to[3 * size.width] = {byte(std::max(at[field::kUnder], at[field::kEdge])),
+                            byte(0.5F * at[field::kRope]), byte(at[field::kTip])};
+    }
+  }
+  return result;
+}
+
+flowdlo::Result<Outcome> measure(const Options& options, std::uint64_t index,
+                                 field::Network& network, cv::Mat* drawn) {
+  const auto part = *synth::part_of(options.part);
+  synth::Render render;
+  render.dense = true;
+  auto scene = synth::make_frame(synth::Split::kWide, part, 0, index, render);
+  if (!scene) return scene.error();
+  const Dropped dropped(scene->frame(), options.drop);
+  Outcome outcome;
+  outcome.index = index;
+  outcome.scenario = scene->meta.scenario;
+  outcome.width_px = true_width_px(*scene);
+  double width_px = options.width * outcome.width_px;
+  if (options.width_of_mask) {
+    const auto traced = flowdlo::path::trace(scene->frame());
+    if (traced) width_px = static_cast<double>(traced->rope_width_px);
+  }
+  const auto begin = std::chrono::steady_clock::now();
+  const auto seen = field::see(dropped.frame, static_cast<float>(width_px), network);
+  if (!seen) return seen.error();
+  const std::chrono::duration<double, std::milli> elapsed =
+      std::chrono::steady_clock::now() - begin;
+  outcome.ms = elapsed.count();
+  const auto strands = strand::in_region(strand::strands_of(*scene), seen->region);
+  const cv::Mat mask = field::look(dropped.frame, seen->region).mask;
+  outcome.blocks = field::blocks_near(mask).blocks.size();
+  outcome.field =
+      strand::measure(strands, mask, field::ridges(seen->channels), field::tips(seen->channels));
+  strand::measure_crossings(strands, seen->channels, outcome.field);
+  outcome.thinning = strand::measure(strands, mask, strand::thinned(mask), {});
+  if (drawn != nullptr) *drawn = picture(dropped.frame, *seen);
+  return outcome;
+}
+
+std::string width_group(double width_px) {
+  const std::vector<std::pair<double, const char*>> bounds{
+      {2.5, "2 to 2.5 px"}, {3.5, "2.5 to 3.5 px"}, {5, "3.5 to 5 px"}, {10, "5 to 10 px"}};
+  for (const auto& [most, name] : bounds) {
+    if (width_px < most) return name;
+  }
+  return "10 px and more";
+}
+
+void report(const std::vector<Outcome>& outcomes) {
+  Counts all;
+  Counts thinning;
+  std::map<std::string, std::pair<std::size_t, Counts>> groups;
+  std::map<std::string, std::pair<std::size_t, Counts>> widths;
+  std::vector<double> times;
+  std::vector<double> blocks;
+  for (const Outcome& outcome : outcomes) {
+    all += outcome.field;
+    thinning += outcome.thinning;
+    auto& group = groups[outcome.scenario];
+    ++group.first;
+    group.second += outcome.field;
+    auto& width = widths[width_group(outcome.width_px)];
+    ++width.first;
+    width.second += outcome.field;
+    times.push_back(outcome.ms);
+    blocks.push_back(static_cast<double>(outcome.blocks));
+  }
+  fmt::print(
+      "| | scenes | all: recall / precision, % | merged: recall / precision, % | ends: recall / "
+      "precision, % | upper strand at crossings, % |\n|---|---|---|---|---|---|\n");
+  fmt::print("{}", row("thinning of the mask", outcomes.size(), thinning));
+  fmt::print("{}", row("**field**", outcomes.size(), all));
+  for (const auto& [name, group] : groups) fmt::print("{}", row(name, group.first, group.second));
+  for (const auto& [name, group] : widths) fmt::print("{}", row(name, group.first, group.second));
+  std::sort(times.begin(), times.end());
+  std::sort(blocks.begin(), blocks.end());
+  const auto at = [](const std::vector<double>& sorted, double share) {
+    return sorted[static_cast<std::size_t>(share * static_cast<double>(sorted.size() - 1))];
+  };
+  fmt::print(
+      "\nms a field, one thread: median {:.1f}, 99 % {:.1f}; blocks: median {:.0f}, 99 % {:.0f}\n",
+      at(times, 0.5), at(times, 0.99), at(blocks, 0.5), at(blocks, 0.99));
+}
+
+int run(const Options& options) {
+  const auto weights = flowdlo::weights::load_field(options.weights);
+  if (!weights) {
+    fmt::print(stderr, "{}\n", weights.error().message);
+    return 1;
+  }
+  const auto shared = std::make_shared<const flowdlo::weights::FieldWeights>(*weights);
+  const auto make = [] { return flowdlo::reference::create_program(1); };
+  std::vector<Outcome> outcomes;
+  std::mutex mutex;
+  std::atomic<std::uint64_t> next = 0;
+  std::string fault;
+  flowdlo::threads::work_together(flowdlo::threads::count(options.threads), [&](int) {
+    auto network = field::Network::create(shared, make);
+    for (std::uint64_t i = next++; i < options.scenes && network; i = next++) {
+      auto outcome = measure(options, options.first + i, *network, nullptr);
+      const std::lock_guard lock(mutex);
+      if (outcome) {
+        outcomes.push_back(*std::move(outcome));
+      } else {
+        fault = outcome.error().message;
+      }
+    }
+  });
+  if (!fault.empty()) fmt::print(stderr, "a scene failed: {}\n", fault);
+  if (outcomes.empty()) return 1;
+  std::sort(outcomes.begin(), outcomes.end(),
+            [](const Outcome& a, const Outcome& b) { return a.index < b.index; });
+  report(outcomes);
+  if (options.pictures.empty()) return 0;
+  std::stable_sort(outcomes.begin(), outcomes.end(), [](const Outcome& a, const Outcome& b) {
+    return a.field.places - a.field.found > b.field.places - b.field.found;
+  });
+  std::filesystem::create_directories(options.pictures);
+  auto network = field::Network::create(shared, make);
+  for (std::size_t i = 0; i < std::min(options.worst, outcomes.size()) && network; ++i) {
+    cv::Mat drawn;
+    if (!measure(options, outcomes[i].index, *network, &drawn)) continue;
+    const auto file = options.pictures /
+                      fmt::format("{:02}_{}_{}.png", i, outcomes[i].index, outcomes[i].scenario);
+    cv::imwrite(file.string(), drawn);
+    fmt::print("{}: {} of {} places missed\n", file.string(),
+               outcomes[i].field.places - outcomes[i].field.found, outcomes[i].field.places);
+  }
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app{"What a strand field finds on scenes with truth, beside thinning of the mask"};
+  Options options;
+  app.add_option("--field", options.weights, "Weights of the field, .safetensors")
+      ->required()
+      ->check(CLI::ExistingFile);
+  app.add_option("--part", options.part, "Of the wide split")
+      ->check(CLI::IsMember({"training", "validation"}));
+  app.add_option("--first", options.first, "Index of the first scene");
+  app.add_option("--scenes", options.scenes, "How many")->check(CLI::Range(1, 1000000));
+  app.add_option("--drop", options.drop, "What the camera does not give")
+      ->check(CLI::IsMember({"nothing", "color", "depth", "both"}));
+  app.add_option("--width", options.width, "The width believed, over the true one")
+      ->check(CLI::Range(0.1, 10.0));
+  app.add_flag("--width-of-mask", options.width_of_mask,
+               "Believe the width that the path measures");
+  app.add_option("--threads", options.threads, "0: one a core")->check(CLI::Range(0, 1024));
+  app.add_option("--pictures", options.pictures, "Folder for pictures of the worst scenes");
+  app.add_option("--worst", options.worst, "How many pictures")->check(CLI::Range(0, 1000));
+  CLI11_PARSE(app, argc, argv);
+  return run(options);
+}

@@ -1,0 +1,269 @@
+#include "strand/patch.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+
+namespace flowdlo::strand {
+namespace {
+
+constexpr double kStep_px = 0.5;
+constexpr double kOwnSurface = 1.8;  // radii before its axis that a rope's own surface lies at most
+constexpr double kNearWidths = 2.5;  // between axes of strands that are near each other
+constexpr double kApartWidths = 4;   // of arclength between two strands
+
+using synth::Vector2d;
+using synth::Vector3d;
+
+Vector2d project(const Intrinsics& camera, const Vector3d& p) {
+  return {camera.fx * p.x() / p.z() + camera.cx, camera.fy * p.y() / p.z() + camera.cy};
+}
+
+Seen seen(const synth::SyntheticFrame& frame, const AxisPoint& point) {
+  const auto u = static_cast<int>(std::lround(point.u));
+  const auto v = static_cast<int>(std::lround(point.v));
+  if (u < 0 || v < 0 || u >= frame.folder.width || v >= frame.folder.height) return Seen::kNo;
+  const auto pixel = static_cast<std::size_t>(v) * static_cast<std::size_t>(frame.folder.width) +
+                     static_cast<std::size_t>(u);
+  if (frame.dense->mask[pixel] == 0) return Seen::kNo;
+  const double own = static_cast<double>(point.depth_m) - kOwnSurface * frame.dense->radius_m;
+  return static_cast<double>(frame.dense->depth_m[pixel]) < own ? Seen::kUnder : Seen::kYes;
+}
+
+/// Samples so dense that they lie half a pixel apart.
+Strand strand_of(const synth::Curve& curve, const synth::SyntheticFrame& frame) {
+  const Intrinsics& camera = frame.folder.intrinsics;
+  const double radius_m = frame.dense->radius_m;
+  Strand strand;
+  strand.begins = strand.ends = true;
+  const auto add = [&](const Vector3d& p, double along) {
+    const Vector2d at = project(camera, p);
+    AxisPoint point{static_cast<float>(at.x()),
+                    static_cast<float>(at.y()),
+                    static_cast<float>(radius_m * camera.fx / p.z()),
+                    static_cast<float>(p.z()),
+                    static_cast<float>(along / (2 * radius_m)),
+                    Seen::kYes};
+    point.seen = seen(frame, point);
+    strand.points.push_back(point);
+  };
+  for (std::size_t i = 0; i + 1 < curve.points.size(); ++i) {
+    const Vector3d& a = curve.points[i];
+    const Vector3d& b = curve.points[i + 1];
+    const double px = (project(camera, b) - project(camera, a)).norm();
+    const int pieces = std::max(1, static_cast<int>(std::ceil(px / kStep_px)));
+    for (int k = 0; k < pieces; ++k) {
+      const double t = static_cast<double>(k) / pieces;
+      add((1 - t) * a + t * b, curve.step_m * (static_cast<double>(i) + t));
+    }
+  }
+  add(curve.points.back(), curve.length_m());
+  return strand;
+}
+
+using Middles = std::vector<const AxisPoint*>;
+
+/// Visible points of which a strand farther along is near.
+Middles near_others(const std::vector<Strand>& strands) {
+  constexpr std::size_t kStride = 6;
+  Middles sparse;
+  for (const Strand& strand : strands) {
+    for (std::size_t i = 0; i < strand.points.size(); i += kStride) {
+      sparse.push_back(&strand.points[i]);
+    }
+  }
+  Middles near;
+  for (const AxisPoint* a : sparse) {
+    const bool has_other = std::any_of(sparse.begin(), sparse.end(), [&](const AxisPoint* b) {
+      const double off =
+          std::hypot(static_cast<double>(a->u - b->u), static_cast<double>(a->v - b->v));
+      return off < kNearWidths * 2 * static_cast<double>(a->radius_px) &&
+             std::abs(static_cast<double>(a->along_widths - b->along_widths)) > kApartWidths;
+    });
+    if (has_other && a->seen == Seen::kYes) near.push_back(a);
+  }
+  return near;
+}
+
+class Cutter {
+ public:
+  Cutter(const PatchConfig& config, std::uint64_t seed, std::uint64_t index)
+      : config_(config), random_(seed * 0x9E3779B97F4A7C15ULL + index) {}
+
+  std::vector<synth::Window> choose(const synth::SyntheticFrame& frame) {
+    strands_ = strands_of(frame);
+    const Middles near = near_others(strands_);
+    Middles visible;
+    for (const Strand& strand : strands_) {
+      for (const AxisPoint& point : strand.points) {
+        if (point.seen == Seen::kYes) visible.push_back(&point);
+      }
+    }
+    windows_.clear();
+    middles_.clear();
+    for (int k = 0; k < config_.each && !visible.empty(); ++k) {
+      const AxisPoint& middle = choose(near, visible);
+      const double width_px = 2 * static_cast<double>(middle.radius_px);
+      const int half = std::max(config_.least_half_px,
+                                static_cast<int>(std::lround(config_.half_widths * width_px)));
+      const auto shifted = [&](float at) {
+        return static_cast<int>(std::lround(static_cast<double>(at) + uniform(-0.3, 0.3) * half));
+      };
+      const int u = shifted(middle.u);
+      const int v = shifted(middle.v);
+      const synth::Window window{std::max(0, u - half), std::max(0, v - half),
+                                 std::min(frame.folder.width, u + half),
+                                 std::min(frame.folder.height, v + half)};
+      if (window.right - window.left < 16 || window.bottom - window.top < 16) continue;
+      windows_.push_back(window);
+      middles_.push_back(width_px);
+    }
+    return windows_;
+  }
+
+  [[nodiscard]] std::vector<Patch> cut(const synth::SyntheticFrame& frame) const {
+    std::vector<Patch> patches;
+    for (std::size_t i = 0; i < windows_.size(); ++i) {
+      patches.push_back(cut(frame, windows_[i], middles_[i]));
+    }
+    return patches;
+  }
+
+ private:
+  double uniform(double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(random_);
+  }
+  const AxisPoint& any_of(const Middles& of) {
+    return *of[std::uniform_int_distribution<std::size_t>(0, of.size() - 1)(random_)];
+  }
+
+  const AxisPoint& choose(const Middles& near, const Middles& visible) {
+    const double share = uniform(0, 1);
+    if (share < config_.near_share && !near.empty()) return any_of(near);
+    if (share < config_.near_share + config_.end_share) {
+      const Strand& strand = strands_[static_cast<std::size_t>(
+          uniform(0, 1) * static_cast<double>(strands_.size()) * 0.999)];
+      const AxisPoint& end = uniform(0, 1) < 0.5 ? strand.points.front() : strand.points.back();
+      if (end.seen == Seen::kYes) return end;
+    }
+    return any_of(visible);
+  }
+
+  [[nodiscard]] Patch cut(const synth::SyntheticFrame& frame, const synth::Window& window,
+                          double width_px) const;
+
+  const PatchConfig& config_;
+  std::mt19937_64 random_;
+  std::vector<Strand> strands_;
+  std::vector<synth::Window> windows_;
+  std::vector<double> middles_;  // widths there, frame pixels
+};
+
+/// The stretches of a strand that come near an image of that size, moved and scaled into it.
+std::vector<Strand> inside(const Strand& strand, const synth::Window& window, float scale,
+                           const cv::Size& size) {
+  constexpr float kAround = 3;  // widths
+  std::vector<Strand> stretches;
+  bool open = false;
+  for (std::size_t i = 0; i < strand.points.size(); ++i) {
+    AxisPoint point = strand.points[i];
+    point.u = (point.u - static_cast<float>(window.left) + 0.5F) * scale - 0.5F;
+    point.v = (point.v - static_cast<float>(window.top) + 0.5F) * scale - 0.5F;
+    point.radius_px *= scale;
+    const float around = kAround * 2 * point.radius_px;
+    const bool here = point.u > -around && point.v > -around &&
+                      point.u < static_cast<float>(size.width) + around &&
+                      point.v < static_cast<float>(size.height) + around;
+    if (here && !open) {
+      stretches.emplace_back();
+      stretches.back().rope = strand.rope;
+      stretches.back().begins = i == 0 && strand.begins;
+    }
+    open = here;
+    if (!here) continue;
+    stretches.back().points.push_back(point);
+    stretches.back().ends = i + 1 == strand.points.size() && strand.ends;
+  }
+  return stretches;
+}
+
+template <class T>
+std::vector<T> pixels(const cv::Mat& image) {
+  const cv::Mat whole = image.isContinuous() ? image : image.clone();
+  const auto* begin = whole.ptr<T>();
+  return {begin, begin + whole.total() * static_cast<std::size_t>(whole.channels())};
+}
+
+Patch Cutter::cut(const synth::SyntheticFrame& frame, const synth::Window& window,
+                  double width_px) const {
+  const FrameFolder& folder = frame.folder;
+  const cv::Size whole(folder.width, folder.height);
+  const cv::Rect box(window.left, window.top, window.right - window.left,
+                     window.bottom - window.top);
+  const auto part = [&](int type, const void* data) {
+    return cv::Mat(whole, type, const_cast<void*>(data))(box);
+  };
+  Patch patch;
+  patch.frame_scale = static_cast<float>(std::min(1.0, config_.most_rope_px / width_px));
+  const auto side = [&](int px) {
+    return std::max(8, static_cast<int>(std::lround(static_cast<float>(px) * patch.frame_scale)));
+  };
+  const cv::Size size(side(box.width), side(box.height));
+  patch.width = size.width;
+  patch.height = size.height;
+  patch.focal_px = folder.intrinsics.fx * patch.frame_scale;
+  patch.rope_px = static_cast<float>(width_px) * patch.frame_scale;
+  cv::Mat color;
+  cv::Mat mask;
+  cv::resize(part(CV_8UC3, folder.color_bgr.data()), color, size, 0, 0, cv::INTER_AREA);
+  cv::resize(part(CV_8UC1, folder.mask.data()), mask, size, 0, 0, cv::INTER_AREA);
+  patch.color_bgr = pixels<std::uint8_t>(color);
+  patch.mask = pixels<std::uint8_t>(mask);
+  const cv::Mat depth = part(CV_32FC1, folder.depth_m.data());
+  cv::Mat known;
+  cv::Mat share;
+  cv::threshold(depth, known, 0, 1, cv::THRESH_BINARY);
+  cv::resize(known, share, size, 0, 0, cv::INTER_AREA);
+  cv::Mat mean;
+  cv::resize(depth, mean, size, 0, 0, cv::INTER_AREA);
+  patch.depth.resize(static_cast<std::size_t>(size.area()));
+  for (int v = 0; v < size.height; ++v) {
+    for (int u = 0; u < size.width; ++u) {
+      const float by = share.at<float>(v, u);
+      const double z = by > 0.5F ? static_cast<double>(mean.at<float>(v, u) / by) : 0.0;
+      patch.depth[static_cast<std::size_t>(v) * static_cast<std::size_t>(size.width) +
+                  static_cast<std::size_t>(u)] =
+          static_cast<std::uint16_t>(std::min(65535.0, std::round(z / synth::kDepthScale_m)));
+    }
+  }
+  for (const Strand& strand : strands_) {
+    for (Strand& stretch : inside(strand, window, patch.frame_scale, size)) {
+      patch.strands.push_back(std::move(stretch));
+    }
+  }
+  return patch;
+}
+
+}  // namespace
+
+std::vector<Strand> strands_of(const synth::SyntheticFrame& frame) {
+  std::vector<Strand> strands;
+  for (const synth::Curve& curve : frame.dense->curves) {
+    strands.push_back(strand_of(curve, frame));
+    strands.back().rope = static_cast<int>(strands.size()) - 1;
+  }
+  return strands;
+}
+
+Result<std::vector<Patch>> patches_of(synth::Part part, std::uint64_t seed, std::uint64_t index,
+                                      const PatchConfig& config) {
+  Cutter cutter(config, seed, index);
+  synth::Render render;
+  render.dense = true;
+  render.windows = [&](const synth::SyntheticFrame& frame) { return cutter.choose(frame); };
+  const auto frame = synth::make_frame(synth::Split::kWide, part, seed, index, render);
+  if (!frame) return frame.error();
+  return cutter.cut(*frame);
+}
+
+}  // namespace flowdlo::strand

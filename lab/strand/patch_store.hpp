@@ -1,0 +1,46 @@
+// PatchStore: patches on disk, in shards that can grow while training runs.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <vector>
+
+#include "flowdlo/result.hpp"
+#include "strand/patch.hpp"
+
+namespace flowdlo::strand {
+
+inline constexpr std::uint64_t kShardScenes = 50;
+
+/// Makes the shards of scenes [0, scenes) of the training part that are not in `folder` yet,
+/// `threads` at work. Scenes are rounded up to whole shards. `progress` is called after each scene,
+/// from one thread at a time. Fails with kIo, or as patches_of does.
+[[nodiscard]] Result<void> make_patches(const std::filesystem::path& folder, std::uint64_t seed,
+                                        std::uint64_t scenes, const PatchConfig& config,
+                                        int threads, const std::function<void()>& progress);
+
+/// The patches of a folder, read one by one when they are asked for.
+class PatchStore {
+ public:
+  /// Shards 0, 1, ... as far as they are there. Fails with kBadInput where there is none or one is
+  /// damaged, with kIo where one cannot be read.
+  [[nodiscard]] static Result<PatchStore> open(const std::filesystem::path& folder);
+
+  [[nodiscard]] std::size_t size() const { return places_.size(); }
+
+  /// Fails with kIo and kBadInput.
+  [[nodiscard]] Result<Patch> read(std::size_t index) const;
+
+ private:
+  struct Place {
+    std::size_t shard = 0;
+    std::uint64_t offset = 0;
+    std::uint64_t bytes = 0;
+  };
+
+  std::vector<std::filesystem::path> shards_;
+  std::vector<Place> places_;
+};
+
+}  // namespace flowdlo::strand

@@ -1,0 +1,376 @@
+#include "strand/trainer.hpp"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cmath>
+#include <fstream>
+#include <numbers>
+#include <optional>
+
+#include "field/channel.hpp"
+#include "field/sight.hpp"
+#include "files/temporary_file.hpp"
+#include "strand/sample.hpp"
+#include "threads/pool.hpp"
+
+namespace flowdlo::strand {
+namespace {
+
+using torch::Tensor;
+
+constexpr int kCheckpointVersion = 1;
+constexpr double kNoteEvery = 20;  // steps
+
+/// Binary cross-entropy, weighed by how wrong a pixel is: nearly all are sky.
+Tensor focal(const Tensor& logit, const Tensor& target, const Tensor& weight) {
+  const Tensor p = torch::sigmoid(logit);
+  const Tensor each =
+      torch::binary_cross_entropy_with_logits(logit, target, {}, {}, at::Reduction::None);
+  return ((p - target).abs().detach() * each * weight).mean();
+}
+
+/// One less the cosine of the angle between two doubled directions, summed where there is one.
+Tensor apart(const Tensor& output, const Tensor& target, const Tensor& weight) {
+  const auto unit = torch::nn::functional::normalize(
+      output, torch::nn::functional::NormalizeFuncOptions().dim(1).eps(1e-4));
+  return (weight * (1 - (unit * target).sum(1))).sum();
+}
+
+/// Of the strand that shows and of the one below it. Crossings are a hundredth of a rope, and where
+/// the two must be told apart: both weigh several times as much there. They share one norm, since a
+/// sum over crossings alone would drown the direction of the strand that shows.
+Tensor directions(const Tensor& output, const Tensor& target) {
+  constexpr double kAtCrossings = 4;
+  const auto two = [](const Tensor& of, field::Channel first) {
+    return of.slice(1, first, first + 2);
+  };
+  const Tensor centre = target.select(1, field::kCentre);
+  const Tensor under = target.select(1, field::kUnder);
+  const Tensor upper = apart(two(output, field::kCos), two(target, field::kCos),
+                             centre.sqrt() * (1 + kAtCrossings * under));
+  const Tensor lower = apart(two(output, field::kUnderCos), two(target, field::kUnderCos),
+                             kAtCrossings * under.sqrt());
+  return (upper + lower) / (centre.sum() + 1);
+}
+
+struct Batch {
+  Tensor planes;
+  Tensor target;
+};
+
+/// [h, w, c] of each to [n, c, h, w].
+Tensor stacked(const std::vector<Sample>& samples, cv::Mat Sample::*image) {
+  std::vector<Tensor> each;
+  for (const Sample& sample : samples) {
+    const cv::Mat& at = sample.*image;
+    each.push_back(
+        torch::from_blob(at.data, {at.rows, at.cols, at.channels()}, torch::kFloat32).clone());
+  }
+  return torch::stack(each).permute({0, 3, 1, 2}).contiguous();
+}
+
+std::uint64_t mixed(std::uint64_t x) {
+  x = (x ^ (x >> 30U)) * 0xBF58476D1CE4E5B9ULL;
+  x = (x ^ (x >> 27U)) * 0x94D049BB133111EBULL;
+  return x ^ (x >> 31U);
+}
+
+/// The samples of one step, made on a pool's threads.
+class BatchMaker {
+ public:
+  BatchMaker(threads::Pool& pool, const PatchStore& store, const Recipe& recipe, std::int64_t step)
+      : samples_(static_cast<std::size_t>(recipe.schedule.batch)),
+        faults_(samples_.size()),
+        beside_(pool, recipe.schedule.batch, [this, &store, &recipe, step](int i) {
+          const auto number =
+              static_cast<std::uint64_t>(step) * static_cast<std::uint64_t>(recipe.schedule.batch) +
+              static_cast<std::uint64_t>(i);
+          const std::uint64_t key = mixed(recipe.seed * 0x9E3779B97F4A7C15ULL + number);
+          const auto patch = store.read(key % store.size());
+          const auto at = static_cast<std::size_t>(i);
+          if (!patch) {
+            faults_[at] = patch.error();
+            return;
+          }
+          samples_[at] =
+              sample_of(*patch, recipe.schedule.size_px, recipe.seed, number, recipe.spoil);
+        }) {}
+
+  Result<Batch> finish() {
+    beside_.finish();
+    for (const auto& fault : faults_) {
+      if (fault) return *fault;
+    }
+    return Batch{stacked(samples_, &Sample::input), stacked(samples_, &Sample::target)};
+  }
+
+ private:
+  std::vector<Sample> samples_;
+  std::vector<std::optional<Error>> faults_;
+  threads::Beside beside_;
+};
+
+double rate_at(const Schedule& schedule, std::int64_t step) {
+  const double warm =
+      std::min(1.0, static_cast<double>(step + 1) / std::max(1, schedule.warmup_steps));
+  const double way = std::min(1.0, static_cast<double>(step) / schedule.steps);
+  const double fall = 0.5 + 0.5 * std::cos(std::numbers::pi * way);
+  return warm * (schedule.final_rate + (schedule.rate - schedule.final_rate) * fall);
+}
+
+/// Parameters and batch norms' statistics alike.
+template <class Visit>
+void for_each_pair(Network& to, Network& from, const Visit& visit) {
+  const torch::NoGradGuard no_gradients;
+  const auto sources = from->named_parameters();
+  for (auto& item : to->named_parameters()) visit(item.value(), sources[item.key()]);
+  const auto buffers = from->named_buffers();
+  for (auto& item : to->named_buffers()) visit(item.value(), buffers[item.key()]);
+}
+
+void follow(Network& average, Network& network, double decay) {
+  for_each_pair(average, network, [&](Tensor& to, const Tensor& from) {
+    if (to.is_floating_point()) {
+      to.mul_(decay).add_(from, 1 - decay);
+    } else {
+      to.copy_(from);
+    }
+  });
+}
+
+LossParts step_once(State& state, const Batch& batch, torch::Device device) {
+  const Schedule& schedule = state.recipe.schedule;
+  const double rate = rate_at(schedule, state.step);
+  for (auto& group : state.optimizer->param_groups()) {
+    static_cast<torch::optim::AdamWOptions&>(group.options()).lr(rate);
+  }
+  state.network->train();
+  const Tensor planes = batch.planes.to(device);
+  const LossParts parts = loss_of(state.network->forward(planes), batch.target.to(device), planes);
+  state.optimizer->zero_grad();
+  parts.total(state.recipe.loss).backward();
+  if (schedule.clip_norm > 0) {
+    torch::nn::utils::clip_grad_norm_(state.network->parameters(), schedule.clip_norm);
+  }
+  state.optimizer->step();
+  ++state.step;
+  const double early = 1 - 1 / static_cast<double>(state.step + 1);
+  follow(state.average, state.network, std::min(schedule.ema_decay, early));
+  return parts;
+}
+
+std::string slashed(std::string name) {
+  for (char& letter : name) letter = letter == '.' ? '/' : letter;
+  return name;
+}
+
+void write_module(torch::serialize::OutputArchive& archive, const char* key, Network network) {
+  torch::serialize::OutputArchive inside;
+  for (const auto& item : network->named_parameters()) {
+    inside.write(slashed(item.key()), item.value().detach().to(torch::kCPU));
+  }
+  for (const auto& item : network->named_buffers()) {
+    inside.write(slashed(item.key()), item.value().detach().to(torch::kCPU));
+  }
+  archive.write(key, inside);
+}
+
+void read_module(torch::serialize::InputArchive& archive, const char* key, Network network) {
+  const torch::NoGradGuard no_gradients;
+  torch::serialize::InputArchive inside;
+  archive.read(key, inside);
+  const auto take = [&](const std::string& name, Tensor& into) {
+    Tensor saved;
+    inside.read(slashed(name), saved);
+    into.copy_(saved);
+  };
+  for (auto& item : network->named_parameters()) take(item.key(), item.value());
+  for (auto& item : network->named_buffers()) take(item.key(), item.value());
+}
+
+}  // namespace
+
+Tensor LossParts::total(const LossConfig& weights) const {
+  return weights.centre * centre + weights.direction * direction + weights.tip * tip +
+         weights.under * under + weights.width * width + weights.rope * rope + weights.edge * edge;
+}
+
+LossParts loss_of(const Tensor& output, const Tensor& target, const Tensor& planes) {
+  const auto out = [&](field::Channel channel) { return output.select(1, channel); };
+  const auto want = [&](field::Channel channel) { return target.select(1, channel); };
+  const Tensor near =
+      torch::max_pool2d(planes.slice(1, field::kMask, field::kMask + 1), 9, 1, 4).squeeze(1);
+  const Tensor centre = want(field::kCentre);
+  const Tensor under = want(field::kUnder);
+  const Tensor rope = want(field::kRope);
+  LossParts parts;
+  parts.centre = focal(out(field::kCentre), centre, 0.3 + 1.2 * near + 4 * centre);
+  parts.tip = focal(out(field::kTip), want(field::kTip), 0.5 + 0.5 * near + 10 * want(field::kTip));
+  parts.under = focal(out(field::kUnder), under, 0.3 + 0.7 * near + 6 * under);
+  parts.rope = focal(out(field::kRope), rope, 0.3 + 0.7 * near);
+  parts.edge =
+      focal(out(field::kEdge), want(field::kEdge), 0.3 + 0.7 * near + 3 * want(field::kEdge));
+  parts.direction = directions(output, target);
+  const Tensor off =
+      torch::smooth_l1_loss(out(field::kWidth), want(field::kWidth), at::Reduction::None, 0.1);
+  parts.width = (rope * off).sum() / (rope.sum() + 1);
+  return parts;
+}
+
+State start(const Recipe& recipe, torch::Device device) {
+  torch::manual_seed(recipe.seed);
+  State state;
+  state.recipe = recipe;
+  state.network = Network(recipe.network);
+  state.network->to(device);
+  state.average = Network(recipe.network);
+  state.average->to(device);
+  state.average->eval();
+  for_each_pair(state.average, state.network,
+                [](Tensor& to, const Tensor& from) { to.copy_(from); });
+  for (auto& parameter : state.average->parameters()) parameter.set_requires_grad(false);
+  state.optimizer = std::make_unique<torch::optim::AdamW>(
+      state.network->parameters(),
+      torch::optim::AdamWOptions(recipe.schedule.rate).weight_decay(recipe.schedule.weight_decay));
+  return state;
+}
+
+Result<void> save_checkpoint(const State& state, const std::filesystem::path& file) {
+  const auto folder = files::Folder::make(file.parent_path());
+  if (!folder) return folder.error();
+  auto temporary = files::TemporaryFile::create(*folder, files::TemporaryKind::kSingle,
+                                                file.filename().string());
+  if (!temporary) return temporary.error();
+  Result<void> written;
+  try {
+    torch::serialize::OutputArchive archive;
+    archive.write("field_version", c10::IValue(kCheckpointVersion));
+    archive.write("step", c10::IValue(state.step));
+    archive.write("recipe", c10::IValue(to_json(state.recipe)));
+    archive.write("command", c10::IValue(state.command));
+    write_module(archive, "network", state.network);
+    write_module(archive, "average", state.average);
+    torch::serialize::OutputArchive optimizer;
+    state.optimizer->save(optimizer);
+    archive.write("optimizer", optimizer);
+    archive.save_to([&](const void* data, std::size_t size) -> std::size_t {
+      if (written) written = temporary->write({static_cast<const std::uint8_t*>(data), size});
+      return size;
+    });
+  } catch (const std::exception& thrown) {
+    return Error{ErrorCode::kIo, fmt::format("{}: expected a writable place, got \"{}\"; check the "
+                                             "folder",
+                                             file.string(), thrown.what())};
+  }
+  if (written) written = temporary->finish(Durability::kSynced);
+  if (written) written = temporary->take_place();
+  if (!written) return written;
+  files::sweep(*folder, files::TemporaryKind::kSingle);
+  return folder->sync(Durability::kSynced);
+}
+
+Result<State> load_checkpoint(const std::filesystem::path& file, torch::Device device) {
+  if (!std::filesystem::is_regular_file(file)) {
+    return Error{ErrorCode::kIo,
+                 fmt::format("{}: expected a checkpoint; check the path", file.string())};
+  }
+  try {
+    torch::serialize::InputArchive archive;
+    archive.load_from(file.string(), device);
+    c10::IValue value;
+    archive.read("field_version", value);
+    if (value.toInt() != kCheckpointVersion) throw std::runtime_error("another version");
+    archive.read("recipe", value);
+    const auto recipe = parse_recipe(value.toStringRef(), file.string() + ": recipe");
+    if (!recipe) return recipe.error();
+    State state = start(*recipe, device);
+    archive.read("step", value);
+    state.step = value.toInt();
+    archive.read("command", value);
+    state.command = value.toStringRef();
+    read_module(archive, "network", state.network);
+    read_module(archive, "average", state.average);
+    torch::serialize::InputArchive optimizer;
+    archive.read("optimizer", optimizer);
+    state.optimizer->load(optimizer);
+    return state;
+  } catch (const std::exception& thrown) {
+    return Error{ErrorCode::kBadInput,
+                 fmt::format("{}: expected a checkpoint of flowdlo-train field, got \"{}\"; start "
+                             "again or give another file",
+                             file.string(), thrown.what())};
+  }
+}
+
+Result<void> train(State& state, const RunOptions& options, torch::Device device) {
+  using Clock = std::chrono::steady_clock;
+  const Schedule& schedule = state.recipe.schedule;
+  auto store = PatchStore::open(options.patches);
+  if (!store) return store.error();
+  threads::Pool pool(1 + options.threads);
+  const std::int64_t last =
+      options.stop_after > 0
+          ? std::min<std::int64_t>(schedule.steps, state.step + options.stop_after)
+          : schedule.steps;
+  std::error_code ignored;
+  std::filesystem::create_directories(options.folder, ignored);
+  std::ofstream log(options.folder / "steps.csv", std::ios::app);
+  if (log.tellp() == 0) log << "step,rate,total,centre,direction,tip,under,width,rope,edge\n";
+  auto maker = std::make_unique<BatchMaker>(pool, *store, state.recipe, state.step);
+  auto begin = Clock::now();
+  LossConfig sums{0, 0, 0, 0, 0, 0, 0};
+  double total = 0;
+  while (state.step < last) {
+    const auto batch = maker->finish();
+    if (!batch) return batch.error();
+    const bool checkpoint = (state.step + 1) % schedule.checkpoint_every == 0;
+    if (checkpoint) {
+      maker.reset();
+      if (auto grown = PatchStore::open(options.patches)) store = std::move(grown);
+    }
+    maker = std::make_unique<BatchMaker>(pool, *store, state.recipe, state.step + 1);
+    const LossParts parts = step_once(state, *batch, device);
+    const double value = parts.total(state.recipe.loss).item<double>();
+    if (!std::isfinite(value)) {
+      return Error{ErrorCode::kInternal,
+                   fmt::format("flowdlo-train field: expected a finite loss, got {} at step {}; "
+                               "lower schedule.rate",
+                               value, state.step)};
+    }
+    total += value;
+    sums.centre += parts.centre.item<double>();
+    sums.direction += parts.direction.item<double>();
+    sums.tip += parts.tip.item<double>();
+    sums.under += parts.under.item<double>();
+    sums.width += parts.width.item<double>();
+    sums.rope += parts.rope.item<double>();
+    sums.edge += parts.edge.item<double>();
+    if (state.step % static_cast<std::int64_t>(kNoteEvery) == 0) {
+      const double n = kNoteEvery;
+      const std::chrono::duration<double> elapsed = Clock::now() - begin;
+      log << fmt::format("{},{:.3g},{:.5g},{:.5g},{:.5g},{:.5g},{:.5g},{:.5g},{:.5g},{:.5g}\n",
+                         state.step, rate_at(schedule, state.step), total / n, sums.centre / n,
+                         sums.direction / n, sums.tip / n, sums.under / n, sums.width / n,
+                         sums.rope / n, sums.edge / n)
+          << std::flush;
+      if (options.on_note) {
+        options.on_note(fmt::format(
+            "{}/{}  loss {:.4f}  centre {:.4f}  direction {:.4f}  tip {:.5f}  under {:.5f}  width "
+            "{:.4f}  {} patches  {:.2f} s a step",
+            state.step, schedule.steps, total / n, sums.centre / n, sums.direction / n,
+            sums.tip / n, sums.under / n, sums.width / n, store->size(), elapsed.count() / n));
+      }
+      sums = {0, 0, 0, 0, 0, 0, 0};
+      total = 0;
+      begin = Clock::now();
+    }
+    if (checkpoint || state.step == last) {
+      const auto saved = save_checkpoint(state, options.folder / "checkpoint.pt");
+      if (!saved) return saved;
+    }
+  }
+  return {};
+}
+
+}  // namespace flowdlo::strand

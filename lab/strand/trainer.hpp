@@ -1,0 +1,67 @@
+// Trainer: the loss of a strand field and the loop that lowers it.
+#pragma once
+
+#include <torch/torch.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "strand/network.hpp"
+#include "strand/patch_store.hpp"
+#include "strand/recipe.hpp"
+
+namespace flowdlo::strand {
+
+/// The parts of the loss, each without its weight.
+struct LossParts {
+  torch::Tensor centre;
+  torch::Tensor direction;
+  torch::Tensor tip;
+  torch::Tensor under;
+  torch::Tensor width;
+  torch::Tensor rope;
+  torch::Tensor edge;
+
+  [[nodiscard]] torch::Tensor total(const LossConfig& weights) const;
+};
+
+/// `output` and `target` [n, kChannels, h, w], `planes` [n, kPlanes, h, w].
+[[nodiscard]] LossParts loss_of(const torch::Tensor& output, const torch::Tensor& target,
+                                const torch::Tensor& planes);
+
+/// All that a run is, apart from its patches.
+struct State {
+  Recipe recipe;
+  std::int64_t step = 0;
+  Network network{nullptr};
+  Network average{nullptr};  ///< what is exported
+  std::unique_ptr<torch::optim::AdamW> optimizer;
+  std::string command;  ///< for the metadata
+};
+
+[[nodiscard]] State start(const Recipe& recipe, torch::Device device);
+
+/// Under a temporary name, then renamed. Fails with kIo.
+[[nodiscard]] Result<void> save_checkpoint(const State& state, const std::filesystem::path& file);
+/// Fails with kIo, or kBadInput where the file is no checkpoint of a strand field.
+[[nodiscard]] Result<State> load_checkpoint(const std::filesystem::path& file,
+                                            torch::Device device);
+
+struct RunOptions {
+  std::filesystem::path folder;   ///< of the checkpoint and steps.csv
+  std::filesystem::path patches;  ///< of shards; new ones are taken up at every checkpoint
+  int threads = 1;                ///< that make samples beside the optimiser
+  std::int64_t stop_after = 0;    ///< steps of this call; 0: to the recipe's end
+  std::function<void(const std::string& line)> on_note;
+};
+
+/// Trains `state` up to the recipe's last step. The samples of a step depend on the recipe, the
+/// step and the patches that are there. Fails with kIo or kBadInput, or with kInternal when the
+/// loss stops being finite.
+[[nodiscard]] Result<void> train(State& state, const RunOptions& options, torch::Device device);
+
+}  // namespace flowdlo::strand

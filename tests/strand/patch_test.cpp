@@ -1,0 +1,102 @@
+#include "strand/patch.hpp"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "frame/temporary_folder.hpp"
+#include "strand/patch_store.hpp"
+
+namespace flowdlo::strand {
+namespace {
+
+constexpr std::uint64_t kSeed = 3;
+
+TEST(Patch, IsTheSameEveryTimeAndAnotherForAnotherScene) {
+  const auto first = patches_of(synth::Part::kTraining, kSeed, 5);
+  const auto again = patches_of(synth::Part::kTraining, kSeed, 5);
+  const auto other = patches_of(synth::Part::kTraining, kSeed, 6);
+  ASSERT_TRUE(first && again && other);
+  ASSERT_FALSE(first->empty());
+  ASSERT_EQ(first->size(), again->size());
+  EXPECT_EQ(first->front().color_bgr, again->front().color_bgr);
+  EXPECT_EQ(first->front().depth, again->front().depth);
+  EXPECT_NE(first->front().mask, other->front().mask);
+}
+
+TEST(Patch, ItsStrandsLieOnTheRopeThatItShows) {
+  const auto patches = patches_of(synth::Part::kTraining, kSeed, 11);
+  ASSERT_TRUE(patches);
+  int visible = 0;
+  int on_mask = 0;
+  for (const Patch& patch : *patches) {
+    for (const Strand& strand : patch.strands) {
+      for (const AxisPoint& point : strand.points) {
+        const auto u = static_cast<int>(std::lround(point.u));
+        const auto v = static_cast<int>(std::lround(point.v));
+        if (point.seen != Seen::kYes || u < 0 || v < 0 || u >= patch.width || v >= patch.height) {
+          continue;
+        }
+        ++visible;
+        on_mask += patch.mask[static_cast<std::size_t>(v * patch.width + u)] > 60;
+      }
+    }
+  }
+  EXPECT_GT(visible, 100);
+  EXPECT_GT(on_mask, 0.9 * visible);
+}
+
+TEST(Patch, AWideRopeIsShrunk) {
+  PatchConfig config;
+  config.most_rope_px = 4;
+  for (std::uint64_t index = 0; index < 4; ++index) {
+    const auto patches = patches_of(synth::Part::kTraining, kSeed, index, config);
+    ASSERT_TRUE(patches);
+    for (const Patch& patch : *patches) EXPECT_LE(patch.rope_px, 4.001F);
+  }
+}
+
+class PatchStoreTest : public ::testing::Test {
+ protected:
+  void make(std::uint64_t scenes) {
+    const auto made = make_patches(folder_.path(), kSeed, scenes, small_, 2, [] {});
+    ASSERT_TRUE(made) << made.error().message;
+  }
+  [[nodiscard]] std::filesystem::path first_shard() const {
+    return folder_.path() / "patches_00000.bin";
+  }
+
+  PatchConfig small_{.each = 1, .half_widths = 4, .least_half_px = 12};
+  test::TemporaryFolder folder_;
+};
+
+TEST_F(PatchStoreTest, GivesBackWhatWasMade) {
+  make(1);  // rounded up to a shard
+  const auto store = PatchStore::open(folder_.path());
+  ASSERT_TRUE(store) << store.error().message;
+  ASSERT_GT(store->size(), 30U);
+  const auto stored = store->read(0);
+  const auto made = patches_of(synth::Part::kTraining, kSeed, 0, small_);
+  ASSERT_TRUE(stored && made);
+  EXPECT_EQ(stored->color_bgr, made->front().color_bgr);
+  EXPECT_EQ(stored->depth, made->front().depth);
+  ASSERT_EQ(stored->strands.size(), made->front().strands.size());
+  EXPECT_EQ(stored->strands[0].points.size(), made->front().strands[0].points.size());
+}
+
+TEST_F(PatchStoreTest, AnEmptyFolderIsAnError) {
+  const auto store = PatchStore::open(folder_.path());
+  ASSERT_FALSE(store);
+  EXPECT_EQ(store.error().code, ErrorCode::kBadInput);
+}
+
+TEST_F(PatchStoreTest, ADamagedShardIsRefused) {
+  make(1);
+  std::filesystem::resize_file(first_shard(), std::filesystem::file_size(first_shard()) - 1);
+  EXPECT_FALSE(PatchStore::open(folder_.path()));
+  std::ofstream(first_shard(), std::ios::binary) << "no patches at all";
+  EXPECT_FALSE(PatchStore::open(folder_.path()));
+}
+
+}  // namespace
+}  // namespace flowdlo::strand

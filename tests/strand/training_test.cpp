@@ -1,0 +1,138 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "field/network.hpp"
+#include "frame/temporary_folder.hpp"
+#include "reference/program.hpp"
+#include "strand/export.hpp"
+#include "strand/patch_store.hpp"
+#include "strand/sample.hpp"
+#include "strand/trainer.hpp"
+
+namespace flowdlo::strand {
+namespace {
+
+Recipe small_recipe() {
+  Recipe recipe;
+  recipe.name = "test";
+  recipe.seed = 3;
+  recipe.network = {16, 16, 16};
+  recipe.data.patch = {.each = 1, .half_widths = 8, .least_half_px = 24};
+  recipe.schedule.batch = 4;
+  recipe.schedule.size_px = 64;
+  recipe.schedule.steps = 60;
+  recipe.schedule.warmup_steps = 5;
+  recipe.schedule.checkpoint_every = 20;
+  return recipe;
+}
+
+class FieldTraining : public ::testing::Test {
+ protected:
+  /// Patches are made once, in the first test: a folder is named after the test that makes it.
+  void SetUp() override {
+    if (folder_ != nullptr) return;
+    folder_ = new test::TemporaryFolder;
+    const auto made = make_patches(patches(), 0, 1, small_recipe().data.patch, 2, [] {});
+    ASSERT_TRUE(made) << made.error().message;
+  }
+  static void TearDownTestSuite() {
+    delete folder_;
+    folder_ = nullptr;
+  }
+  static std::filesystem::path patches() { return folder_->path() / "patches"; }
+
+  static RunOptions options(const std::string& name, std::int64_t stop_after = 0) {
+    RunOptions options;
+    options.folder = folder_->path() / name;
+    options.patches = patches();
+    options.stop_after = stop_after;
+    return options;
+  }
+  static double largest_difference(const State& a, const State& b) {
+    double worst = 0;
+    const auto other = b.network->named_parameters();
+    for (const auto& item : a.network->named_parameters()) {
+      worst = std::max(worst, (item.value() - other[item.key()]).abs().max().item<double>());
+    }
+    return worst;
+  }
+
+  static test::TemporaryFolder* folder_;
+};
+
+test::TemporaryFolder* FieldTraining::folder_ = nullptr;
+
+TEST_F(FieldTraining, LowersTheLoss) {
+  State state = start(small_recipe(), torch::kCPU);
+  std::vector<double> losses;
+  RunOptions run = options("lowers");
+  run.on_note = [&](const std::string& line) {
+    losses.push_back(std::stod(line.substr(line.find("loss ") + 5)));
+  };
+  const auto trained = train(state, run, torch::kCPU);
+  ASSERT_TRUE(trained) << trained.error().message;
+  ASSERT_EQ(losses.size(), 3U);
+  EXPECT_LT(losses.back(), 0.7 * losses.front());
+}
+
+TEST_F(FieldTraining, ResumesExactly) {
+  State whole = start(small_recipe(), torch::kCPU);
+  ASSERT_TRUE(train(whole, options("whole", 30), torch::kCPU));
+
+  State half = start(small_recipe(), torch::kCPU);
+  ASSERT_TRUE(train(half, options("half", 17), torch::kCPU));
+  auto resumed = load_checkpoint(options("half").folder / "checkpoint.pt", torch::kCPU);
+  ASSERT_TRUE(resumed) << resumed.error().message;
+  EXPECT_EQ(resumed->step, 17);
+  ASSERT_TRUE(train(*resumed, options("half", 13), torch::kCPU));
+  EXPECT_EQ(largest_difference(whole, *resumed), 0);
+}
+
+TEST_F(FieldTraining, WhatIsNoCheckpointIsRefused) {
+  EXPECT_FALSE(load_checkpoint(folder_->path() / "none.pt", torch::kCPU));
+  const auto fault = load_checkpoint(patches() / "patches_00000.bin", torch::kCPU);
+  ASSERT_FALSE(fault);
+  EXPECT_EQ(fault.error().code, ErrorCode::kBadInput);
+}
+
+TEST_F(FieldTraining, TheEngineSeesWhatTheTrainedNetworkSays) {
+  State state = start(small_recipe(), torch::kCPU);
+  ASSERT_TRUE(train(state, options("parity", 20), torch::kCPU));
+  const auto file = folder_->path() / "field.safetensors";
+  const auto saved = weights::save_field(exported(state, "test"), file);
+  ASSERT_TRUE(saved) << saved.error().message;
+  const auto weights = weights::load_field(file);
+  ASSERT_TRUE(weights) << weights.error().message;
+
+  const auto store = PatchStore::open(patches());
+  ASSERT_TRUE(store);
+  const Sample sample = sample_of(*store->read(0), 128, 1, 1);
+  auto network = field::Network::create(std::make_shared<const weights::FieldWeights>(*weights),
+                                        [] { return reference::create_program(2); });
+  ASSERT_TRUE(network) << network.error().message;
+  const auto got = network->see(sample.input, field::blocks_near(cv::Mat::ones(128, 128, CV_32F)));
+  ASSERT_TRUE(got) << got.error().message;
+
+  const torch::NoGradGuard no_gradients;
+  const auto planes =
+      torch::from_blob(sample.input.data, {1, 128, 128, field::kPlanes}).permute({0, 3, 1, 2});
+  const auto want = state.average->forward(planes.contiguous()).permute({0, 2, 3, 1}).contiguous();
+  const float* const expected = want.data_ptr<float>();
+  double worst = 0;
+  for (int i = 0; i < 128 * 128; ++i) {
+    const float* const values = got->ptr<float>() + i * field::kChannels;
+    for (int c = 0; c < field::kChannels; ++c) {
+      const bool logit = c == field::kCentre || c == field::kTip || c == field::kUnder ||
+                         c == field::kRope || c == field::kEdge;
+      const auto value = static_cast<double>(expected[i * field::kChannels + c]);
+      const double said = logit ? 1 / (1 + std::exp(-value)) : value;
+      worst = std::max(worst, std::abs(said - static_cast<double>(values[c])));
+    }
+  }
+  EXPECT_LT(worst, 5e-3) << "weights are f16 in the file";
+  EXPECT_GT(cv::norm(*got, cv::NORM_INF), 0.05);
+}
+
+}  // namespace
+}  // namespace flowdlo::strand
