@@ -17,8 +17,8 @@ namespace flowdlo::field {
 using ProgramFactory = std::function<std::unique_ptr<ops::Program>()>;
 
 /// Blocks that are computed in one run. A larger region is computed in parts that overlap, so that
-/// memory has a bound: 190 kB a block.
-inline constexpr int kMostBlocks = 1024;
+/// memory has a bound: 0.3 MB a block, of every layer's activations.
+inline constexpr int kMostBlocks = 512;
 
 class Network {
  public:

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <vector>
 
 #include "field/channel.hpp"
@@ -10,9 +11,10 @@
 namespace flowdlo::field {
 namespace {
 
-constexpr float kSure = 0.5F;  // centre and rope that are asked for the width
-constexpr std::size_t kLeastAsked = 30;
-constexpr int kMostLooks = 3;
+constexpr std::uint8_t kMaskThreshold = 127;  // 0.5 of an 8-bit mask
+constexpr float kSure = 0.5F;                 // centre and rope that are asked for the width
+constexpr std::size_t kLeastAsked = 30;       // pixels of them
+constexpr int kMostLooks = 3;                 // each at a smaller width
 
 cv::Rect mask_box(const Frame& frame) {
   cv::Point low(frame.width, frame.height);
@@ -22,7 +24,7 @@ cv::Rect mask_box(const Frame& frame) {
         frame.mask.subspan(static_cast<std::size_t>(v) * static_cast<std::size_t>(frame.width),
                            static_cast<std::size_t>(frame.width));
     for (int u = 0; u < frame.width; ++u) {
-      if (row[static_cast<std::size_t>(u)] <= 127) continue;
+      if (row[static_cast<std::size_t>(u)] <= kMaskThreshold) continue;
       low = {std::min(low.x, u), std::min(low.y, v)};
       high = {std::max(high.x, u), std::max(high.y, v)};
     }
