@@ -11,6 +11,7 @@ void add_train_command(CLI::App& app, int argc, char** argv, int& exit_code);
 void add_resume_command(CLI::App& app, int argc, char** argv, int& exit_code);
 void add_export_command(CLI::App& app, int& exit_code);
 void add_golden_command(CLI::App& app, int& exit_code);
+/// Where the scene maker is part of the build.
 void add_field_commands(CLI::App& app, int argc, char** argv, int& exit_code);
 void add_curves_command(CLI::App& app, int& exit_code);
 

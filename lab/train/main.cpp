@@ -10,7 +10,7 @@
 
 int main(int argc, char** argv) {
   using namespace flowdlo::train;
-  CLI::App app{"Training records, training and export of FlowDLO's velocity model",
+  CLI::App app{"Training records, training and export of FlowDLO's velocity model and strand field",
                "flowdlo-train"};
   app.set_version_flag("--version", "flowdlo-train " FLOWDLO_VERSION);
   app.require_subcommand(1);
@@ -21,7 +21,9 @@ int main(int argc, char** argv) {
   add_export_command(app, exit_code);
   add_golden_command(app, exit_code);
   add_curves_command(app, exit_code);
+#ifdef FLOWDLO_WITH_SYNTH
   add_field_commands(app, argc, argv, exit_code);
+#endif
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& end) {  // --help and --version come this way as well
