@@ -10,9 +10,9 @@
 
 #include "field/channel.hpp"
 #include "field/sight.hpp"
-#include "files/temporary_file.hpp"
 #include "strand/sample.hpp"
 #include "threads/pool.hpp"
+#include "train/archive_file.hpp"
 
 namespace flowdlo::strand {
 namespace {
@@ -237,14 +237,7 @@ State start(const Recipe& recipe, torch::Device device) {
 }
 
 Result<void> save_checkpoint(const State& state, const std::filesystem::path& file) {
-  const auto folder = files::Folder::make(file.parent_path());
-  if (!folder) return folder.error();
-  auto temporary = files::TemporaryFile::create(*folder, files::TemporaryKind::kSingle,
-                                                file.filename().string());
-  if (!temporary) return temporary.error();
-  Result<void> written;
-  try {
-    torch::serialize::OutputArchive archive;
+  return train::write_archive(file, [&](torch::serialize::OutputArchive& archive) {
     archive.write("field_version", c10::IValue(kCheckpointVersion));
     archive.write("step", c10::IValue(state.step));
     archive.write("recipe", c10::IValue(to_json(state.recipe)));
@@ -254,20 +247,7 @@ Result<void> save_checkpoint(const State& state, const std::filesystem::path& fi
     torch::serialize::OutputArchive optimizer;
     state.optimizer->save(optimizer);
     archive.write("optimizer", optimizer);
-    archive.save_to([&](const void* data, std::size_t size) -> std::size_t {
-      if (written) written = temporary->write({static_cast<const std::uint8_t*>(data), size});
-      return size;
-    });
-  } catch (const std::exception& thrown) {
-    return Error{ErrorCode::kIo, fmt::format("{}: expected a writable place, got \"{}\"; check the "
-                                             "folder",
-                                             file.string(), thrown.what())};
-  }
-  if (written) written = temporary->finish(Durability::kSynced);
-  if (written) written = temporary->take_place();
-  if (!written) return written;
-  files::sweep(*folder, files::TemporaryKind::kSingle);
-  return folder->sync(Durability::kSynced);
+  });
 }
 
 Result<State> load_checkpoint(const std::filesystem::path& file, torch::Device device) {

@@ -32,8 +32,8 @@ TEST(Windows, HaveTheColorsOfTheWholeFrameAndTheRestIsBlack) {
   EXPECT_EQ(part.folder.mask, whole.folder.mask);
   for (int v = 0; v < part.folder.height; ++v) {
     for (int u = 0; u < part.folder.width; ++u) {
-      const bool inside = u >= kWindow.left && u < kWindow.right && v >= kWindow.top &&
-                          v < kWindow.bottom;
+      const bool inside =
+          u >= kWindow.left && u < kWindow.right && v >= kWindow.top && v < kWindow.bottom;
       for (std::size_t k = 0; k < 3; ++k) {
         const std::size_t at = 3 * pixel(part, u, v) + k;
         ASSERT_EQ(part.folder.color_bgr[at], inside ? whole.folder.color_bgr[at] : 0)
@@ -59,9 +59,7 @@ TEST(Windows, AreChosenByWhatTheFrameShows) {
   EXPECT_EQ(frame.folder.color_bgr[3 * pixel(frame, 5, 15)], 0);
 }
 
-TEST(DenseTruth, IsThereWhenItIsAskedFor) {
-  EXPECT_FALSE(rendered({.color = false}).dense);
-}
+TEST(DenseTruth, IsThereWhenItIsAskedFor) { EXPECT_FALSE(rendered({.color = false}).dense); }
 
 TEST(DenseTruth, ItsCurveRunsThroughTheIdealMask) {
   const SyntheticFrame frame = rendered({.color = false, .dense = true});

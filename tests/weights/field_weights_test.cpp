@@ -22,9 +22,7 @@ class FieldWeightsTest : public ::testing::Test {
     std::ifstream stream(file(), std::ios::binary);
     return {std::istreambuf_iterator<char>(stream), {}};
   }
-  void write(const std::string& bytes) const {
-    std::ofstream(file(), std::ios::binary) << bytes;
-  }
+  void write(const std::string& bytes) const { std::ofstream(file(), std::ios::binary) << bytes; }
   [[nodiscard]] std::string fault() const {
     const auto loaded = load_field(file());
     return loaded ? "" : loaded.error().message;
@@ -62,7 +60,9 @@ TEST_F(FieldWeightsTest, ManifestHasAWeightAndABiasOfEveryConvolution) {
   EXPECT_EQ(manifest.back().shape, std::vector<int>{kFieldOutputs});
 }
 
-TEST_F(FieldWeightsTest, AMissingFileSaysSo) { EXPECT_THAT(fault(), HasSubstr("field.safetensors")); }
+TEST_F(FieldWeightsTest, AMissingFileSaysSo) {
+  EXPECT_THAT(fault(), HasSubstr("field.safetensors"));
+}
 
 TEST_F(FieldWeightsTest, AChangedBitIsFound) {
   ASSERT_TRUE(save_field(weights_, file()));
@@ -75,7 +75,8 @@ TEST_F(FieldWeightsTest, AChangedBitIsFound) {
 TEST_F(FieldWeightsTest, AFileThatEndsEarlyIsRefused) {
   ASSERT_TRUE(save_field(weights_, file()));
   const std::string bytes = text();
-  for (const std::size_t size : {std::size_t{0}, std::size_t{5}, bytes.size() / 2, bytes.size() - 1}) {
+  for (const std::size_t size :
+       {std::size_t{0}, std::size_t{5}, bytes.size() / 2, bytes.size() - 1}) {
     write(bytes.substr(0, size));
     EXPECT_NE(fault(), "") << size;
   }
