@@ -17,6 +17,7 @@ constexpr int kLeastColored = 20;       // rope pixels that tell its colour
 constexpr int kCell_px = 16;            // of the grid on which the rope's depth is known
 constexpr int kReach = 3;               // cells around that tell it
 constexpr float kFarWeight = 1e-4F;     // of the whole rope's depth, where no cell around has any
+constexpr double kLevel = 0.03;  // cells squared of spread that a plane's slope is held to 0 by
 
 cv::Mat resampled(const cv::Mat& image, const cv::Size& size) {
   cv::Mat result;
@@ -73,22 +74,74 @@ Palette palette_of(const Sight& sight) {
   return palette;
 }
 
-/// Depth of the rope around each place, smooth: the median of each cell of a grid, averaged over
-/// the cells around. Occluders and holes weigh nothing, for they are no mask; a table seen aslant
-/// leaves no steps. Empty where the mask has no depth at all.
+/// Sums over the cells around each cell, by how near they lie: of weights, of places about the
+/// grid's corner, and of depths.
+struct Moments {
+  cv::Mat weight;  // f32, of one cell
+  cv::Mat place;   // f32 x 5: x, y, xx, xy, yy, weighed; cells
+  cv::Mat depth;   // f32 x 3: z, xz, yz, weighed; metres and cells
+
+  explicit Moments(const cv::Size& cells)
+      : weight(cv::Mat::zeros(cells, CV_32F)),
+        place(cv::Mat::zeros(cells, CV_32FC(5))),
+        depth(cv::Mat::zeros(cells, CV_32FC3)) {}
+
+  void set(const cv::Point& cell, float count, float depth_m) {
+    const auto x = static_cast<float>(cell.x);
+    const auto y = static_cast<float>(cell.y);
+    weight.at<float>(cell) = count;
+    place.at<cv::Vec<float, 5>>(cell) = count * cv::Vec<float, 5>(x, y, x * x, x * y, y * y);
+    depth.at<cv::Vec3f>(cell) = count * depth_m * cv::Vec3f(1, x, y);
+  }
+
+  void gather() {
+    constexpr int kSide = 2 * kReach + 1;
+    for (cv::Mat* sums : {&weight, &place, &depth}) {
+      cv::GaussianBlur(*sums, *sums, {kSide, kSide}, 0, 0, cv::BORDER_CONSTANT);
+    }
+  }
+
+  /// At a cell: of the plane that fits the cells around best, all but level where they do not tell
+  /// its slope; `far_m` where there are none.
+  [[nodiscard]] float plane_m(const cv::Point& cell, float far_m) const {
+    const auto w = static_cast<double>(weight.at<float>(cell) + kFarWeight);
+    const cv::Vec<double, 5> p = place.at<cv::Vec<float, 5>>(cell);
+    const cv::Vec3d d = depth.at<cv::Vec3f>(cell);
+    const double x = cell.x;  // sums about the corner become means about this cell
+    const double y = cell.y;
+    const auto known = static_cast<double>(weight.at<float>(cell));
+    const double mx = (p[0] - known * x) / w;
+    const double my = (p[1] - known * y) / w;
+    const double xx = (p[2] - 2 * x * p[0] + known * x * x) / w - mx * mx + kLevel;
+    const double xy = (p[3] - x * p[1] - y * p[0] + known * x * y) / w - mx * my;
+    const double yy = (p[4] - 2 * y * p[1] + known * y * y) / w - my * my + kLevel;
+    const double z = (d[0] + static_cast<double>(kFarWeight * far_m)) / w;
+    const double xz = (d[1] - x * d[0]) / w - mx * z;
+    const double yz = (d[2] - y * d[0]) / w - my * z;
+    const double determinant = xx * yy - xy * xy;  // at least kLevel squared
+    const double slope_x = (yy * xz - xy * yz) / determinant;
+    const double slope_y = (xx * yz - xy * xz) / determinant;
+    return static_cast<float>(z - slope_x * mx - slope_y * my);
+  }
+};
+
+/// Depth of the rope around each place, smooth: a plane through the medians of the cells of a grid,
+/// for each cell its own. Occluders and holes weigh nothing, for they are no mask; a table seen
+/// aslant leaves no steps, nor an error at the image's border. Empty where the mask has no depth at
+/// all.
 cv::Mat rope_depth(const Sight& sight) {
   const cv::Size size = sight.depth_m.size();
-  const int columns = (size.width + kCell_px - 1) / kCell_px;
-  const int rows = (size.height + kCell_px - 1) / kCell_px;
-  cv::Mat depth = cv::Mat::zeros(rows, columns, CV_32F);
-  cv::Mat weight = cv::Mat::zeros(rows, columns, CV_32F);
+  const auto cells_in = [](int px) { return (px + kCell_px - 1) / kCell_px; };
+  const cv::Size cells(cells_in(size.width) + 2, cells_in(size.height) + 2);  // one around
+  Moments moments(cells);
   std::vector<float> all;
   std::vector<float> values;
-  for (int row = 0; row < rows; ++row) {
-    for (int column = 0; column < columns; ++column) {
+  for (int row = 1; row < cells.height - 1; ++row) {
+    for (int column = 1; column < cells.width - 1; ++column) {
       values.clear();
-      for (int v = row * kCell_px; v < std::min(size.height, (row + 1) * kCell_px); ++v) {
-        for (int u = column * kCell_px; u < std::min(size.width, (column + 1) * kCell_px); ++u) {
+      const cv::Point corner(kCell_px * (column - 1), kCell_px * (row - 1));
+      for (int v = corner.y; v < std::min(size.height, corner.y + kCell_px); ++v) {
+        for (int u = corner.x; u < std::min(size.width, corner.x + kCell_px); ++u) {
           const float z = sight.depth_m.at<float>(v, u);
           if (z > 0 && sight.mask.at<float>(v, u) > kHalf) values.push_back(z);
         }
@@ -96,21 +149,21 @@ cv::Mat rope_depth(const Sight& sight) {
       if (values.empty()) continue;
       const float middle = median(values);
       all.push_back(middle);
-      const auto count = static_cast<float>(values.size());
-      weight.at<float>(row, column) = count;
-      depth.at<float>(row, column) = count * middle;
+      moments.set({column, row}, static_cast<float>(values.size()), middle);
     }
   }
   if (all.empty()) return {};
   const float whole = median(all);
-  const cv::Size reach(2 * kReach + 1, 2 * kReach + 1);
-  cv::GaussianBlur(depth, depth, reach, 0, 0, cv::BORDER_CONSTANT);
-  cv::GaussianBlur(weight, weight, reach, 0, 0, cv::BORDER_CONSTANT);
-  const cv::Mat coarse = (depth + kFarWeight * whole) / (weight + kFarWeight);
-  // Cells' centres lie kCell_px apart: the grid reaches beyond the image by less than a cell.
+  moments.gather();
+  cv::Mat coarse(cells, CV_32F);
+  for (int row = 0; row < cells.height; ++row) {
+    for (int column = 0; column < cells.width; ++column) {
+      coarse.at<float>(row, column) = moments.plane_m({column, row}, whole);
+    }
+  }
   cv::Mat fine;
-  cv::resize(coarse, fine, {columns * kCell_px, rows * kCell_px}, 0, 0, cv::INTER_LINEAR);
-  return fine(cv::Rect({0, 0}, size));
+  cv::resize(coarse, fine, cells * kCell_px, 0, 0, cv::INTER_LINEAR);
+  return fine(cv::Rect({kCell_px, kCell_px}, size));
 }
 
 float within(float value) { return std::clamp(value, -kMost, kMost); }
