@@ -6,11 +6,12 @@
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
+#include "geometry/depth.hpp"
+
 namespace flowdlo::field {
 namespace {
 
 constexpr float kMost = 3;              // what a plane of the input holds at most
-constexpr float kLeastDepth_m = 1e-6F;  // Sec. 3.2
 constexpr float kHalf = 0.5F;           // share of a pixel that makes it mask, or measured
 constexpr float kLeastSpread = 0.05F;   // of a rope of one colour, 0 to 1
 constexpr int kLeastColored = 20;       // rope pixels that tell its colour
@@ -187,7 +188,7 @@ Sight look(const Frame& frame, const Region& region) {
   for (int v = 0; v < depth_m.rows; ++v) {
     const auto* from = depth_m.ptr<float>(v);
     for (int u = 0; u < depth_m.cols; ++u) {
-      const bool good = std::isfinite(from[u]) && from[u] > kLeastDepth_m;
+      const bool good = geometry::measured(from[u]);
       measured.at<float>(v, u) = good ? 1.0F : 0.0F;
       known.at<float>(v, u) = good ? from[u] : 0.0F;
     }

@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "geometry/depth.hpp"
 #include "geometry/pixel.hpp"
 
 namespace flowdlo::gate {
@@ -16,7 +17,6 @@ using Eigen::Vector2f;
 using Eigen::Vector3f;
 
 constexpr std::uint8_t kMaskThreshold = 127;  // 0.5 of an 8-bit mask
-constexpr float kLeastDepth_m = 1e-6F;        // Sec. 3.2
 constexpr float kBack = 1.5F;                 // widths of curve that give a tip its direction
 constexpr float kToTheRim = 2;                // widths from the tip to where the mask ends, at most
 constexpr float kClear = 0.75F;               // widths beyond that until the first look
@@ -103,7 +103,7 @@ class Outlook {
     const auto at = pixel(px);
     if (!at) return 0;
     const float depth = frame_.depth_m[*at];
-    return depth > kLeastDepth_m && std::isfinite(depth) ? depth : 0;
+    return geometry::measured(depth) ? depth : 0;
   }
 
   /// Just beyond where the mask ends.

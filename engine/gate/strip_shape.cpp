@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "geometry/depth.hpp"
 #include "geometry/pixel.hpp"
 #include "geometry/quantile.hpp"
 
@@ -15,7 +16,6 @@ namespace {
 using Eigen::Vector2f;
 
 constexpr std::uint8_t kMaskThreshold = 127;  // 0.5 of an 8-bit mask
-constexpr float kLeastDepth_m = 1e-6F;        // Sec. 3.2
 constexpr float kWithin = 2;                  // radii from the axis to a side in sight,
 constexpr float kWithin_px = 2;               // and this beyond
 constexpr float kNarrowest = 0.6F;            // of the rope's width, what is as wide as it
@@ -70,7 +70,7 @@ float depth_at(const Frame& frame, const Vector2f& px) {
                          static_cast<std::size_t>(frame.width) +
                      static_cast<std::size_t>(geometry::nearest_px(px.x()));
   const float depth_m = frame.depth_m[pixel];
-  return depth_m > kLeastDepth_m && std::isfinite(depth_m) ? depth_m : 0;
+  return geometry::measured(depth_m) ? depth_m : 0;
 }
 
 struct Walk {

@@ -6,6 +6,7 @@
 
 #include "gate/tube_shape.hpp"
 #include "geometry/camera.hpp"
+#include "geometry/depth.hpp"
 #include "geometry/polyline.hpp"
 #include "geometry/quantile.hpp"
 
@@ -13,8 +14,6 @@ namespace flowdlo::gate {
 namespace {
 
 constexpr std::uint8_t kMaskThreshold = 127;  // 0.5 of an 8-bit mask
-constexpr float kMinDepth_m = 1e-6F;          // Sec. 3.2
-constexpr float kMostDepth_m = 1e4F;
 constexpr float kCellsAcross = 5;  // a rope's width
 constexpr float kMostCells =
     1U << 21;                       // of a raster: 2 px a cell where ropes are thin in large frames
@@ -36,7 +35,7 @@ float share(double part, double whole, float otherwise) {
 
 bool usable(const Centerline& nodes) {
   return geometry::all_finite(nodes) && std::all_of(nodes.begin(), nodes.end(), [](const auto& p) {
-           return p.z > kMinDepth_m && p.z < kMostDepth_m;
+           return geometry::measured(p.z);
          });
 }
 
@@ -97,7 +96,7 @@ float usual_width_px(float rope_width_px) {
 float pixel_m(const Centerline& nodes, const Intrinsics& camera) {
   std::vector<float> depths;
   for (const Point3& node : nodes) {
-    if (node.z > kMinDepth_m && node.z < kMostDepth_m) depths.push_back(node.z);
+    if (geometry::measured(node.z)) depths.push_back(node.z);
   }
   if (depths.empty()) return 0;
   return geometry::median_of(depths) / (0.5F * (camera.fx + camera.fy));
@@ -128,7 +127,7 @@ TubeView::TubeView(const Frame& frame, float rope_width_px)
                         static_cast<std::size_t>(x);
       mask_[cell] = frame.mask[pixel] > kMaskThreshold ? 1 : 0;
       const float depth = frame.depth_m[pixel];
-      if (depth > kMinDepth_m && depth < kMostDepth_m) depth_m_[cell] = depth;
+      if (geometry::measured(depth)) depth_m_[cell] = depth;
     }
   }
   raster_ = TubeRaster(width_, height_);

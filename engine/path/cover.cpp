@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "geometry/depth.hpp"
 #include "geometry/pixel.hpp"
 
 namespace flowdlo::path {
@@ -34,7 +35,7 @@ float Cover::depth_around(const Vector2f& p, bool on_mask) const {
     const int image_v = v + dv + region_.offset_px.y;
     if (image_u < 0 || image_v < 0 || image_u >= frame_.width || image_v >= frame_.height) continue;
     const float z = frame_.depth_m[static_cast<std::size_t>(image_v) * frame_.width + image_u];
-    if (lit(region_.mask, u + du, v + dv) != on_mask || !std::isfinite(z) || z <= 1e-6F) continue;
+    if (lit(region_.mask, u + du, v + dv) != on_mask || !geometry::measured(z)) continue;
     values[count++] = z;
   }
   if (count == 0) return 0;

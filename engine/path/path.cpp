@@ -7,6 +7,7 @@
 #include <opencv2/core.hpp>
 #include <string>
 
+#include "geometry/depth.hpp"
 #include "geometry/pixel.hpp"
 #include "guard/guarded.hpp"
 #include "path/assemble.hpp"
@@ -61,7 +62,7 @@ double length_m(const Path& path, const Frame& frame) {
     const auto u = static_cast<std::size_t>(geometry::nearest_px(path.points_px[i].x()));
     const auto v = static_cast<std::size_t>(geometry::nearest_px(path.points_px[i].y()));
     const float z = frame.depth_m[v * static_cast<std::size_t>(frame.width) + u];
-    if (path.bridged[i] != 0 || !std::isfinite(z) || z <= 1e-6F) continue;
+    if (path.bridged[i] != 0 || !geometry::measured(z)) continue;
     if (z_before > 0) {
       const double mean = 0.5 * static_cast<double>(z + z_before);
       const double across = (path.points_px[i] - path.points_px[before]).norm() * mean / focal;

@@ -5,6 +5,7 @@
 #include <opencv2/imgproc.hpp>
 #include <string>
 
+#include "geometry/depth.hpp"
 #include "guard/guarded.hpp"
 #include "path/limits.hpp"
 #include "path/reduced.hpp"
@@ -24,7 +25,6 @@ constexpr int kLeastErodedPx = 1;          // but at least this
 constexpr int kLeastDilatedPx = 2;
 constexpr int kMostBrushPx = 16;  // the radius of a disc that is drawn pixel by pixel
 constexpr float kLeastWidthPx = 1.0F;
-constexpr float kLeastDepth_m = 1e-6F;
 
 // The mask and what lies around it, read anew.
 struct Reread {
@@ -33,8 +33,6 @@ struct Reread {
   cv::Mat depth_m;     // f32
   float grown_px = 0;  // of the rope's width, in pixels of the frame
 };
-
-bool measured(float depth_m) { return std::isfinite(depth_m) && depth_m > kLeastDepth_m; }
 
 cv::Mat disc(int radius_px) {
   return cv::getStructuringElement(cv::MORPH_ELLIPSE, {2 * radius_px + 1, 2 * radius_px + 1});
@@ -76,7 +74,7 @@ void rescale(Reread& reread, float scale) {
 void keep_measured(Reread& reread) {
   for (int v = 0; v < reread.mask.rows; ++v) {
     for (int u = 0; u < reread.mask.cols; ++u) {
-      if (!measured(reread.depth_m.at<float>(v, u))) reread.mask.at<std::uint8_t>(v, u) = 0;
+      if (!geometry::measured(reread.depth_m.at<float>(v, u))) reread.mask.at<std::uint8_t>(v, u) = 0;
     }
   }
   cv::morphologyEx(reread.mask, reread.mask, cv::MORPH_CLOSE, disc(1));
@@ -165,7 +163,7 @@ std::vector<Reading> further_readings(const Frame& frame, float rope_width_px) {
   std::vector<Reading> readings{Reading::kHalved, Reading::kEroded, Reading::kDilated};
   std::size_t unmeasured = 0;
   for (std::size_t i = 0; i < frame.mask.size(); ++i) {
-    if (frame.mask[i] > 127 && !measured(frame.depth_m[i])) ++unmeasured;
+    if (frame.mask[i] > 127 && !geometry::measured(frame.depth_m[i])) ++unmeasured;
   }
   const float least = kLeastUnmeasured * rope_width_px * rope_width_px;
   if (static_cast<float>(unmeasured) >= least) readings.push_back(Reading::kMeasured);

@@ -6,6 +6,7 @@
 #include <map>
 #include <utility>
 
+#include "geometry/depth.hpp"
 #include "geometry/pixel.hpp"
 #include "geometry/quantile.hpp"
 #include "path/cover.hpp"
@@ -93,7 +94,7 @@ float depth_at(const Vector2f& p, const Region& region, const Frame& frame) {
     const int image_v = v + region.offset_px.y;
     if (image_u < 0 || image_v < 0 || image_u >= frame.width || image_v >= frame.height) continue;
     const float z = frame.depth_m[static_cast<std::size_t>(image_v) * frame.width + image_u];
-    if (std::isfinite(z) && z > 1e-6F) values.push_back(z);
+    if (geometry::measured(z)) values.push_back(z);
   }
   return values.empty() ? 0 : geometry::median_of(values);
 }

@@ -8,6 +8,7 @@
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
+#include "geometry/depth.hpp"
 #include "geometry/quantile.hpp"
 
 namespace flowdlo::path {
@@ -42,7 +43,7 @@ cv::Mat masked_depths(const cv::Mat& mask, cv::Point offset_px, const Frame& fra
     float* to = depth.ptr<float>(v);
     for (int u = left; u < right; ++u) {
       const float z = from[u + offset_px.x];
-      if (lit[u] != 0 && z > 1e-6F && z < kAbsent_m) to[u] = z;
+      if (lit[u] != 0 && geometry::measured(z)) to[u] = z;
     }
   }
   return depth;

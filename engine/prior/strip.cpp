@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "geometry/depth.hpp"
 #include "geometry/polyline.hpp"
 
 namespace flowdlo::prior {
@@ -13,7 +14,6 @@ namespace {
 
 using Eigen::Vector2f;
 
-constexpr float kMostDepth_m = 1000;  // what is farther is no measurement
 constexpr float kStationsPerWidth = 8;
 constexpr float kReadingsPerWidth = 10;
 constexpr int kMostStations = 8192;
@@ -46,7 +46,7 @@ class Image {
   }
   [[nodiscard]] float depth_m(std::ptrdiff_t pixel) const {
     const float depth = frame_.depth_m[static_cast<std::size_t>(pixel)];
-    return depth > 1e-6F && depth < kMostDepth_m ? depth : 0;
+    return geometry::measured(depth) ? depth : 0;
   }
   [[nodiscard]] Vector2f centre(std::ptrdiff_t pixel) const {
     return {static_cast<float>(pixel % frame_.width), static_cast<float>(pixel / frame_.width)};
@@ -269,7 +269,7 @@ void read_scattered(const evidence::Cloud& cloud, const Image& image, const Neig
   strip.readings.clear();
   const float reach = kCoverWidths * strip.width_px + 0.5F;
   for (std::size_t k = 0; k < cloud.pixels.size(); ++k) {
-    if (cloud.points_cam[k].z >= kMostDepth_m) continue;
+    if (!geometry::measured(cloud.points_cam[k].z)) continue;
     const Vector2f p = image.centre(cloud.pixels[k]);
     int nearest = -1;
     float least = reach * reach;

@@ -51,7 +51,8 @@ void check(const Estimate& estimate) {
   }
   for (const auto support : estimate.support) promise(support <= 1, "support is 0 or 1");
   for (const auto& other : estimate.alternatives) {
-    promise(finite(other.nodes) && std::isfinite(other.score), "alternatives are finite");
+    promise(finite(other.nodes), "alternatives have 64 finite nodes");
+    promise(std::isfinite(other.score), "alternatives have a finite score");
   }
   promise(estimate.draw >= -1 && estimate.draw < static_cast<int>(estimate.draws.size()),
           "the draw is one of the draws");
