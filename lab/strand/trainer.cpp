@@ -236,6 +236,25 @@ State start(const Recipe& recipe, torch::Device device) {
   return state;
 }
 
+Result<State> start_from(const State& earlier, const Recipe& recipe, torch::Device device) {
+  const NetworkConfig& had = earlier.recipe.network;
+  const NetworkConfig& wanted = recipe.network;
+  if (had.fine != wanted.fine || had.middle != wanted.middle || had.coarse != wanted.coarse) {
+    return Error{
+        ErrorCode::kBadInput,
+        fmt::format("{}: expected the network of the run that it begins from, {} / {} / {} "
+                    "channels, got {} / {} / {}; change one of both recipes",
+                    recipe.name, had.fine, had.middle, had.coarse, wanted.fine, wanted.middle,
+                    wanted.coarse)};
+  }
+  State state = start(recipe, device);
+  Network taught = earlier.average;  // a handle
+  for (Network network : {state.network, state.average}) {
+    for_each_pair(network, taught, [](Tensor& to, const Tensor& from) { to.copy_(from); });
+  }
+  return state;
+}
+
 Result<void> save_checkpoint(const State& state, const std::filesystem::path& file) {
   return train::write_archive(file, [&](torch::serialize::OutputArchive& archive) {
     archive.write("field_version", c10::IValue(kCheckpointVersion));

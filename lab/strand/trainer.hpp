@@ -45,6 +45,11 @@ struct State {
 
 [[nodiscard]] State start(const Recipe& recipe, torch::Device device);
 
+/// A new run that begins with what `earlier` has learned on average. Fails with kBadInput where its
+/// network has other sizes.
+[[nodiscard]] Result<State> start_from(const State& earlier, const Recipe& recipe,
+                                       torch::Device device);
+
 /// Under a temporary name, then renamed. Fails with kIo.
 [[nodiscard]] Result<void> save_checkpoint(const State& state, const std::filesystem::path& file);
 /// Fails with kIo, or kBadInput where the file is no checkpoint of a strand field.

@@ -46,6 +46,7 @@ struct ExportArguments {
 struct FieldArguments {
   std::filesystem::path recipe;
   std::filesystem::path folder;
+  std::filesystem::path from;
   std::filesystem::path patches;
   std::string device = "auto";
   int threads = 0;
@@ -133,16 +134,25 @@ int export_field(const ExportArguments& arguments) {
   return 0;
 }
 
+/// The run in --out; where there is none yet, a new one.
+Result<strand::State> begun(const FieldArguments& arguments, const strand::Recipe& recipe,
+                            torch::Device device) {
+  const auto checkpoint = arguments.folder / "checkpoint.pt";
+  if (std::filesystem::exists(checkpoint)) return strand::load_checkpoint(checkpoint, device);
+  if (arguments.from.empty()) return strand::start(recipe, device);
+  const auto earlier = strand::load_checkpoint(arguments.from / "checkpoint.pt", device);
+  if (!earlier) return earlier.error();
+  return strand::start_from(*earlier, recipe, device);
+}
+
 int train_field(const FieldArguments& arguments) {
   const auto device = choose_device(arguments.device);
   if (!device) return failed(device.error(), 2);
   use_threads(arguments.threads);
   fmt::print("device: {}\n", describe(*device));
-  const auto checkpoint = arguments.folder / "checkpoint.pt";
   const auto recipe = strand::read_recipe(arguments.recipe);
   if (!recipe) return failed(recipe.error(), 2);
-  auto state = std::filesystem::exists(checkpoint) ? strand::load_checkpoint(checkpoint, *device)
-                                                   : strand::start(*recipe, *device);
+  auto state = begun(arguments, *recipe, *device);
   if (!state) return failed(state.error());
   if (strand::to_json(state->recipe) != strand::to_json(*recipe)) {
     return failed({ErrorCode::kBadInput,
@@ -208,6 +218,8 @@ void add_field_commands(CLI::App& app, int argc, char** argv, int& exit_code) {
       "field", "Train a strand field; goes on, exactly, from a checkpoint that is in --out");
   field->add_option("recipe", arguments->recipe, "Recipe of a strand field, JSON")->required();
   field->add_option("--out", arguments->folder, "Folder of checkpoint and log")->required();
+  field->add_option("--from", arguments->from,
+                    "Folder of an earlier run whose network a new one begins with");
   field->add_option("--patches", arguments->patches, "Folder that field-patches filled")
       ->required();
   field->add_option("--device", arguments->device, "auto, cpu or cuda")
