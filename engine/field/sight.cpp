@@ -11,13 +11,13 @@
 namespace flowdlo::field {
 namespace {
 
-constexpr float kMost = 3;              // what a plane of the input holds at most
-constexpr float kHalf = 0.5F;           // share of a pixel that makes it mask, or measured
-constexpr float kLeastSpread = 0.05F;   // of a rope of one colour, 0 to 1
-constexpr int kLeastColored = 20;       // rope pixels that tell its colour
-constexpr int kCell_px = 16;            // of the grid on which the rope's depth is known
-constexpr int kReach = 3;               // cells around that tell it
-constexpr float kFarWeight = 1e-4F;     // of the whole rope's depth, where no cell around has any
+constexpr float kMost = 3;             // what a plane of the input holds at most
+constexpr float kHalf = 0.5F;          // share of a pixel that makes it mask, or measured
+constexpr float kLeastSpread = 0.05F;  // of a rope of one colour, 0 to 1
+constexpr int kLeastColored = 20;      // rope pixels that tell its colour
+constexpr int kCell_px = 16;           // of the grid on which the rope's depth is known
+constexpr int kReach = 3;              // cells around that tell it
+constexpr float kFarWeight = 1e-4F;    // of the whole rope's depth, where no cell around has any
 constexpr double kLevel = 0.03;  // cells squared of spread that a plane's slope is held to 0 by
 
 cv::Mat resampled(const cv::Mat& image, const cv::Size& size) {

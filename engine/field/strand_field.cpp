@@ -1,5 +1,7 @@
 #include "field/strand_field.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -47,7 +49,29 @@ float seen_width(const cv::Mat& field) {
   return std::exp2(*middle);
 }
 
+Error too_large(const Region& region) {
+  return {ErrorCode::kNoEvidence,
+          fmt::format(
+              "field: expected the mask of a rope, at most {} pixels and {} blocks with the "
+              "rope {} px wide, got one of {} x {} pixels; check the segmentation",
+              kMostRegionPixels, kMostSeenBlocks, kRope_px, region.size.width, region.size.height)};
+}
+
+/// Fails with kNoEvidence where the region is too large to be looked at.
+Result<cv::Mat> see_region(const Frame& frame, const Region& region, Network& network) {
+  if (region.size.area() > kMostRegionPixels) return too_large(region);
+  const Sight sight = field::look(frame, region);
+  const BlockMap blocks = blocks_near(sight.mask);
+  if (blocks.blocks.size() > kMostSeenBlocks) return too_large(region);
+  return network.see(input_of(sight), blocks);
+}
+
 }  // namespace
+
+float width_px(const StrandField& seen) {
+  const float scale = std::sqrt(seen.region.scale.x() * seen.region.scale.y());
+  return seen_width(seen.channels) * kRope_px / scale;
+}
 
 Result<StrandField> see(const Frame& frame, float rope_width_px, Network& network) {
   const cv::Rect box = mask_box(frame);
@@ -57,15 +81,20 @@ Result<StrandField> see(const Frame& frame, float rope_width_px, Network& networ
   }
   StrandField result;
   float width_px = rope_width_px;
+  bool shrunk = false;
   for (int look = 0; look < kMostLooks; ++look) {
     result.region = region_around(box, {frame.width, frame.height}, width_px);
-    const Sight sight = field::look(frame, result.region);
-    auto seen = network.see(input_of(sight), blocks_near(sight.mask));
+    auto seen = see_region(frame, result.region, network);
+    if (!seen && seen.error().code == ErrorCode::kNoEvidence && !shrunk) {  // as small as it may be
+      shrunk = true;
+      width_px /= kNarrow;
+      continue;
+    }
     if (!seen) return seen.error();
     result.channels = *std::move(seen);
     const float share = seen_width(result.channels);
     const bool magnified = kRope_px / width_px >= kMostScale;
-    if (share >= kNarrow || magnified) break;
+    if (share >= kNarrow || magnified || shrunk) break;
     width_px *= share;
   }
   return result;

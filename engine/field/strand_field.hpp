@@ -14,13 +14,22 @@ struct StrandField {
   cv::Mat channels;  ///< [height, width, kChannels] of the region; no rope far from the mask
 };
 
+/// The rope's width in pixels of the frame, as the field has it in the middle; that of the region
+/// where it shows too little.
+[[nodiscard]] float width_px(const StrandField& seen);
+
 /// A rope is at least so wide in the region for the field to part strands: narrower than believed.
 inline constexpr float kNarrow = 0.7F;
+
+/// Pixels of a region, 140 MB of them, and blocks of it near the mask, 0.4 s of one core, that are
+/// looked at. A region beyond that is magnified less, as far as strands can still be parted.
+inline constexpr int kMostRegionPixels = 1 << 21;
+inline constexpr std::size_t kMostSeenBlocks = 1024;
 
 /// `rope_width_px` is the rope's width in the frame as far as it is known. Where the field itself
 /// says that the rope is narrower than kNarrow of that, as in a mask that merges strands, it is
 /// asked again at the width that it says. Expects a valid frame with a mask. Fails with kNoEvidence
-/// where the mask is empty, or as Network::see does.
+/// where the mask is empty or spreads over more than is looked at, or as Network::see does.
 [[nodiscard]] Result<StrandField> see(const Frame& frame, float rope_width_px, Network& network);
 
 }  // namespace flowdlo::field

@@ -25,6 +25,18 @@ TEST(StrandField, HasTheRegionsSize) {
   EXPECT_EQ(field->channels.channels(), static_cast<int>(kChannels));
 }
 
+TEST(StrandField, AMaskThatSpreadsFartherThanARopeIsRefused) {
+  constexpr int kSide = 1200;  // a comb of hairs, which four times magnified is 23 million pixels
+  const std::vector<float> depth_m(kSide * kSide, 0.5F);
+  std::vector<std::uint8_t> mask(kSide * kSide, 0);
+  for (std::size_t i = 0; i < mask.size(); i += 8) mask[i] = 255;
+  auto network = seeded();
+  const auto field = see({kSide, kSide, {900, 900, 600, 600}, depth_m, mask, {}}, 2, network);
+  ASSERT_FALSE(field);
+  EXPECT_EQ(field.error().code, ErrorCode::kNoEvidence);
+  EXPECT_NE(field.error().message.find("check the segmentation"), std::string::npos);
+}
+
 TEST(StrandField, AnEmptyMaskHasNone) {
   const testing::WaveFrame wave;
   const std::vector<std::uint8_t> none(wave.frame().mask.size(), 0);

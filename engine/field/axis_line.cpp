@@ -1,0 +1,234 @@
+#include "field/axis_line.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <utility>
+
+#include "field/channel.hpp"
+#include "field/follower.hpp"
+#include "field/region.hpp"
+#include "field/surface.hpp"
+
+namespace flowdlo::field {
+namespace {
+
+using Eigen::Vector2f;
+using Points = std::vector<Vector2f>;
+
+constexpr float kClose_px = 0.75F * kRope_px;  // between axes that cross
+constexpr int kFar = 24;              // points between stretches of one line that may cross
+constexpr int kBrief = 24;            // points next to another line; more lie side by side
+constexpr float kChangedOver = 0.2F;  // radians that a line turns by where it may have changed over
+constexpr int kTrim = 3;              // points next to a crossing, which bend
+constexpr float kTipReach_px = 3;     // around a line's end
+constexpr float kCut = 0.7F;          // kTip on a line that two strands make whose ends touch
+constexpr float kOpen = 0.3F;         // kTip at which a closed line is opened, or an end is one
+
+float tip_near(const cv::Mat& field, const Vector2f& p) {
+  float most = 0;
+  const auto reach = static_cast<int>(kTipReach_px);
+  for (int dv = -reach; dv <= reach; ++dv) {
+    for (int du = -reach; du <= reach; ++du) {
+      const int u = static_cast<int>(std::lround(p.x())) + du;
+      const int v = static_cast<int>(std::lround(p.y())) + dv;
+      if (u < 0 || v < 0 || u >= field.cols || v >= field.rows) continue;
+      most = std::max(most, field.ptr<float>(v)[u * kChannels + kTip]);
+    }
+  }
+  return most;
+}
+
+/// Points of a line where kTip is highest, at least `least`, each a width from the next.
+std::vector<std::size_t> peaks(const Points& points, const Surface& surface, float least) {
+  const auto apart = static_cast<std::size_t>(kRope_px);
+  std::vector<std::size_t> found;
+  std::size_t best = 0;
+  float most = 0;
+  for (std::size_t i = 0; i <= points.size(); ++i) {
+    const float tip = i < points.size() ? surface.at(points[i], kTip) : 0;
+    if (tip >= least && tip > most) {
+      most = tip;
+      best = i;
+    }
+    if (most > 0 && (i == points.size() || i - best >= apart)) {
+      found.push_back(best);
+      most = 0;
+    }
+  }
+  return found;
+}
+
+/// A closed line opened where an end shows; a line cut where two ends touch.
+std::vector<AxisLine> parted(AxisLine line, const Surface& surface) {
+  if (line.closed) {
+    const auto found = peaks(line.points_px, surface, kOpen);
+    if (found.empty()) return {std::move(line)};
+    const auto highest =
+        *std::max_element(found.begin(), found.end(), [&](std::size_t a, std::size_t b) {
+          return surface.at(line.points_px[a], kTip) < surface.at(line.points_px[b], kTip);
+        });
+    std::rotate(line.points_px.begin(),
+                line.points_px.begin() + static_cast<std::ptrdiff_t>(highest),
+                line.points_px.end());
+    line.closed = false;
+  }
+  std::vector<AxisLine> parts;
+  std::size_t first = 0;
+  const auto apart = static_cast<std::size_t>(kRope_px);
+  for (const std::size_t cut : peaks(line.points_px, surface, kCut)) {
+    if (cut < first + apart || cut + apart > line.points_px.size()) continue;
+    parts.emplace_back().points_px.assign(
+        line.points_px.begin() + static_cast<std::ptrdiff_t>(first),
+        line.points_px.begin() + static_cast<std::ptrdiff_t>(cut));
+    first = cut + 1;
+  }
+  line.points_px.erase(line.points_px.begin(),
+                       line.points_px.begin() + static_cast<std::ptrdiff_t>(first));
+  parts.push_back(std::move(line));
+  return parts;
+}
+
+/// All lines' points by pixel, to find what else runs near a place.
+class Neighbours {
+ public:
+  Neighbours(const std::vector<AxisLine>& lines, const cv::Size& size)
+      : at_(size, CV_32SC2, cv::Scalar(-1, 0)) {
+    for (std::size_t l = 0; l < lines.size(); ++l) {
+      for (std::size_t i = 0; i < lines[l].points_px.size(); ++i) {
+        const Vector2f& p = lines[l].points_px[i];
+        const cv::Point pixel(static_cast<int>(std::lround(p.x())),
+                              static_cast<int>(std::lround(p.y())));
+        if (cv::Rect({0, 0}, size).contains(pixel)) {
+          at_.at<cv::Vec2i>(pixel) = {static_cast<int>(l), static_cast<int>(i)};
+        }
+      }
+    }
+  }
+
+  /// Whether another line, or a far stretch of the same one, runs within kClose_px of a point.
+  [[nodiscard]] bool close(const std::vector<AxisLine>& lines, int line, int index) const {
+    const AxisLine& own = lines[static_cast<std::size_t>(line)];
+    const Vector2f& p = own.points_px[static_cast<std::size_t>(index)];
+    const auto count = static_cast<int>(own.points_px.size());
+    const auto reach = static_cast<int>(kClose_px) + 1;
+    const cv::Point middle(static_cast<int>(std::lround(p.x())),
+                           static_cast<int>(std::lround(p.y())));
+    const cv::Rect around =
+        cv::Rect(middle.x - reach, middle.y - reach, 2 * reach + 1, 2 * reach + 1) &
+        cv::Rect({0, 0}, at_.size());
+    for (int v = around.y; v < around.y + around.height; ++v) {
+      for (int u = around.x; u < around.x + around.width; ++u) {
+        const auto& there = at_.at<cv::Vec2i>(v, u);
+        if (there[0] < 0) continue;
+        int apart = std::abs(there[1] - index);
+        if (own.closed) apart = std::min(apart, count - apart);
+        if (there[0] == line && apart <= kFar) continue;
+        const AxisLine& other = lines[static_cast<std::size_t>(there[0])];
+        const Vector2f& q = other.points_px[static_cast<std::size_t>(there[1])];
+        if ((q - p).norm() <= kClose_px) return true;
+      }
+    }
+    return false;
+  }
+
+ private:
+  cv::Mat at_;  // [h, w] i32 x 2: line, -1: none, and point
+};
+
+/// By how much a line turns from before point `first` to behind point `last`, radians; 0 where it
+/// ends there.
+float turn_across(const Points& points, int first, int last) {
+  constexpr int kArm = static_cast<int>(0.75F * kRope_px);
+  if (first < kArm || last + kArm >= static_cast<int>(points.size())) return 0;
+  const auto point = [&](int i) { return points[static_cast<std::size_t>(i)]; };
+  const Vector2f in = point(first) - point(first - kArm);
+  const Vector2f out = point(last + kArm) - point(last);
+  return std::abs(std::atan2(in.x() * out.y() - in.y() * out.x(), in.dot(out)));
+}
+
+/// The lines without the short stretches where one comes close to another and turns: there it may
+/// have changed over to the other, for directions mix at a crossing.
+std::vector<AxisLine> untangled(std::vector<AxisLine> lines, const cv::Size& size) {
+  const Neighbours neighbours(lines, size);
+  std::vector<AxisLine> result;
+  for (int l = 0; l < static_cast<int>(lines.size()); ++l) {
+    AxisLine line = lines[static_cast<std::size_t>(l)];
+    auto count = static_cast<int>(line.points_px.size());
+    std::vector<char> close(line.points_px.size());
+    for (int i = 0; i < count; ++i)
+      close[static_cast<std::size_t>(i)] = neighbours.close(lines, l, i) ? 1 : 0;
+    if (line.closed) {  // begun where nothing is near, so that no stretch goes over the end
+      const auto clear = std::find(close.begin(), close.end(), 0) - close.begin();
+      std::rotate(line.points_px.begin(), line.points_px.begin() + clear % count,
+                  line.points_px.end());
+      std::rotate(close.begin(), close.begin() + clear % count, close.end());
+    }
+    std::vector<std::pair<int, int>> cuts;
+    for (int i = 0; i < count; ++i) {
+      if (close[static_cast<std::size_t>(i)] == 0) continue;
+      int last = i;
+      while (last + 1 < count && close[static_cast<std::size_t>(last + 1)] != 0) ++last;
+      const bool brief = last - i < kBrief;
+      if (brief && turn_across(line.points_px, i, last) > kChangedOver) {
+        cuts.emplace_back(std::max(i - kTrim, cuts.empty() ? 0 : cuts.back().second + 1),
+                          std::min(last + kTrim, count - 1));
+      }
+      i = last;
+    }
+    if (cuts.empty()) {
+      result.push_back(std::move(line));
+      continue;
+    }
+    if (line.closed) {  // opened at the first cut
+      const auto [first, last] = cuts.front();
+      std::rotate(line.points_px.begin(), line.points_px.begin() + last + 1, line.points_px.end());
+      line.points_px.resize(static_cast<std::size_t>(count - (last - first + 1)));
+      line.closed = false;
+      for (auto& [a, b] : cuts) {
+        a -= last + 1;
+        b -= last + 1;
+      }
+      cuts.erase(cuts.begin());
+    }
+    int from = 0;
+    cuts.emplace_back(static_cast<int>(line.points_px.size()), 0);
+    for (const auto& [first, last] : cuts) {
+      if (first - from >= 2) {
+        result.emplace_back().points_px.assign(line.points_px.begin() + from,
+                                               line.points_px.begin() + first);
+      }
+      from = last + 1;
+    }
+  }
+  return result;
+}
+
+/// Off an end that is no tip: what bends there towards the strand that it meets.
+void trim(AxisLine& line) {
+  auto& points = line.points_px;
+  if (static_cast<int>(points.size()) < 6 * kTrim + 2) return;
+  if (line.tips[1] < kOpen) points.erase(points.end() - kTrim, points.end());
+  if (line.tips[0] < kOpen) points.erase(points.begin(), points.begin() + kTrim);
+}
+
+}  // namespace
+
+std::vector<AxisLine> axis_lines(const cv::Mat& field) {
+  const Surface surface(field);
+  std::vector<AxisLine> lines;
+  for (AxisLine& whole : untangled(follow_ridges(field), field.size())) {
+    for (AxisLine& line : parted(std::move(whole), surface)) {
+      if (line.points_px.size() < 2) continue;
+      if (!line.closed) {
+        line.tips = {tip_near(field, line.points_px.front()),
+                     tip_near(field, line.points_px.back())};
+        trim(line);
+      }
+      lines.push_back(std::move(line));
+    }
+  }
+  return lines;
+}
+
+}  // namespace flowdlo::field

@@ -1,0 +1,33 @@
+// Surface: a strand field between its pixels.
+#pragma once
+
+#include <Eigen/Core>
+#include <opencv2/core.hpp>
+#include <optional>
+
+#include "field/channel.hpp"
+
+namespace flowdlo::field {
+
+/// A view of `field` [height, width, kChannels], which has to outlive it. Bilinear; 0 beyond it.
+class Surface {
+ public:
+  explicit Surface(const cv::Mat& field) : field_(field) {}
+
+  [[nodiscard]] float at(const Eigen::Vector2f& p, Channel channel) const;
+
+  /// The unit direction of the strand that shows, of both the one nearer to `heading`; none where
+  /// there is none.
+  [[nodiscard]] std::optional<Eigen::Vector2f> direction(const Eigen::Vector2f& p,
+                                                         const Eigen::Vector2f& heading) const;
+
+ private:
+  [[nodiscard]] float pixel(int u, int v, Channel channel) const {
+    const bool inside = u >= 0 && v >= 0 && u < field_.cols && v < field_.rows;
+    return inside ? field_.ptr<float>(v)[u * kChannels + channel] : 0.0F;
+  }
+
+  const cv::Mat& field_;
+};
+
+}  // namespace flowdlo::field

@@ -1,0 +1,82 @@
+// PaintedField: what a perfect network would say of strands whose axes are known.
+#pragma once
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <opencv2/core.hpp>
+#include <vector>
+
+#include "field/channel.hpp"
+#include "field/region.hpp"
+
+namespace flowdlo::testing {
+
+/// Points of a strand's axis half a pixel apart; pixels of the region.
+using Axis = std::vector<Eigen::Vector2f>;
+
+inline Axis straight_axis(const Eigen::Vector2f& from, const Eigen::Vector2f& to) {
+  Axis curve;
+  const int count = static_cast<int>(2 * (to - from).norm());
+  for (int i = 0; i <= count; ++i) {
+    curve.push_back(from + (to - from) * (static_cast<float>(i) / static_cast<float>(count)));
+  }
+  return curve;
+}
+
+inline Axis arc_axis(const Eigen::Vector2f& middle, float radius, float from, float to) {
+  Axis curve;
+  const int count = static_cast<int>(2 * radius * std::abs(to - from));
+  for (int i = 0; i <= count; ++i) {
+    const float angle = from + (to - from) * static_cast<float>(i) / static_cast<float>(count);
+    curve.push_back(middle + radius * Eigen::Vector2f(std::cos(angle), std::sin(angle)));
+  }
+  return curve;
+}
+
+/// What a perfect network says of strands, the lowest first. `width_px` of all of them.
+inline cv::Mat painted_field(const std::vector<Axis>& axes, const cv::Size& size = {160, 160},
+                             float width_px = field::kRope_px) {
+  cv::Mat painted = cv::Mat::zeros(size, CV_32FC(field::kChannels));
+  for (int v = 0; v < painted.rows; ++v) {
+    for (int u = 0; u < painted.cols; ++u) {
+      const Eigen::Vector2f p(static_cast<float>(u), static_cast<float>(v));
+      float* const at = painted.ptr<float>(v) + u * field::kChannels;
+      for (const Axis& curve : axes) {
+        std::size_t nearest = 0;
+        for (std::size_t i = 1; i < curve.size(); ++i) {
+          if ((curve[i] - p).norm() < (curve[nearest] - p).norm()) nearest = i;
+        }
+        const float off = (curve[nearest] - p).norm();
+        const bool covers = off <= 0.5F * width_px;
+        if (!covers && at[field::kRope] > 0) continue;
+        const std::size_t next = std::min(nearest + 1, curve.size() - 1);
+        const Eigen::Vector2f along = curve[next] - curve[next - 1];
+        const float angle = std::atan2(along.y(), along.x());
+        const float near = off / (field::kCentreWidths * width_px);
+        const float centre = std::exp(-near * near);
+        if (!covers && centre < at[field::kCentre]) continue;
+        at[field::kCentre] = centre;
+        at[field::kCos] = std::cos(2 * angle);
+        at[field::kSin] = std::sin(2 * angle);
+        at[field::kWidth] = std::log2(width_px / field::kRope_px);
+        at[field::kRope] = covers ? 1.0F : 0.0F;
+      }
+    }
+  }
+  return painted;
+}
+
+inline void show_tip(cv::Mat& painted, const Eigen::Vector2f& tip) {
+  for (int v = 0; v < painted.rows; ++v) {
+    for (int u = 0; u < painted.cols; ++u) {
+      const float near =
+          (Eigen::Vector2f(static_cast<float>(u), static_cast<float>(v)) - tip).norm() /
+          (field::kTipWidths * field::kRope_px);
+      float& at = painted.ptr<float>(v)[u * field::kChannels + field::kTip];
+      at = std::max(at, std::exp(-near * near));
+    }
+  }
+}
+
+}  // namespace flowdlo::testing
