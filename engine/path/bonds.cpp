@@ -296,7 +296,8 @@ class Builder {
     const float apart = (strands_.end(a).point_px - strands_.end(b).point_px).norm();
     const float straight = kGapStart + apart / (kGapWidths * strands_.scale_px);
     const float most = most_for(a, b);
-    if (straight < most) gaps.push_back({a, b, extra, straight, most});
+    const float beside = extra + strands_.end(a).link_cost + strands_.end(b).link_cost;
+    if (straight < most) gaps.push_back({a, b, beside, straight, most});
   }
 
   void link(const Gap& gap) {

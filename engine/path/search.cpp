@@ -75,7 +75,7 @@ class Searcher {
 
   [[nodiscard]] float stop_cost(int end) const {
     if (!strands_.end(end).tip()) return kEndAtCrossing;
-    return strands_.end(end).cut ? kEndAtCut : 0;
+    return strands_.end(end).cut ? kEndAtCut : strands_.end(end).end_cost;
   }
   [[nodiscard]] float goal_cost(const State& state) const {
     return state.paid + stop_cost(state.enter ^ 1) + state.left;

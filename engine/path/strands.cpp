@@ -33,6 +33,9 @@ constexpr float kHeadingWidths = 0.75F;  // from the middle of what tells the di
 constexpr float kFoldWidths = 2.5F;      // a strand this long at least may hide its way back
 constexpr float kStraightOff = 0.7F;     // of a strand's length: its tip is this far off
 constexpr float kMaxSlope = 1.5F;        // metres of depth a metre sideways
+constexpr float kLeastMasked = 0.3F;     // share of a stretch that the mask knows too
+constexpr float kEndUnseen = 1.5F;       // cost of a path's end where no end shows
+constexpr float kLinkAtTip = 2.0F;       // and of going on where one does
 
 float at(const cv::Mat& image, const Vector2f& p) {
   const int u = std::clamp(geometry::nearest_px(p.x()), 0, image.cols - 1);
@@ -147,6 +150,18 @@ void measure_depth(const Points& points, const Region& region, const Frame& fram
   end.depth_m = geometry::median_of(values);
 }
 
+// The end at the front of `points`: place, directions, depth, and what lies behind it.
+void measure_end(const Points& points, const Region& region, const Frame& frame, const Cover& cover,
+                 float scale_px, StrandEnd& end) {
+  end.point_px = points.front();
+  end.outward = direction_at_front(points, scale_px);
+  end.curvature = curvature_at_front(points, scale_px);
+  end.heading = Eigen::Rotation2Df(kHeadingWidths * scale_px * end.curvature) * end.outward;
+  measure_depth(points, region, frame, scale_px, end);
+  end.cut =
+      cover.beyond(end.point_px, end.outward, end.depth_m, kCutWidths * scale_px) == Sight::kHidden;
+}
+
 Strand make_strand(const Segment& segment, const Graph& graph, const Crossings& crossings,
                    const Region& region, const Frame& frame, const Strands& sizes) {
   const Cover cover(region, frame, sizes.width_px);
@@ -174,13 +189,7 @@ Strand make_strand(const Segment& segment, const Graph& graph, const Crossings& 
     } else if (!strand.ring) {
       extend_tip(points, aside, region, sizes.width_px, sizes.scale_px);
     }
-    end.point_px = points.front();
-    end.outward = direction_at_front(points, sizes.scale_px);
-    end.curvature = curvature_at_front(points, sizes.scale_px);
-    end.heading = Eigen::Rotation2Df(kHeadingWidths * sizes.scale_px * end.curvature) * end.outward;
-    measure_depth(points, region, frame, sizes.scale_px, end);
-    end.cut = cover.beyond(end.point_px, end.outward, end.depth_m, kCutWidths * sizes.scale_px) ==
-              Sight::kHidden;
+    measure_end(points, region, frame, cover, sizes.scale_px, end);
     std::reverse(points.begin(), points.end());
     std::reverse(aside.begin(), aside.end());
   }
@@ -212,6 +221,14 @@ bool doubled(const Segment& segment, const Graph& graph, const Region& region,
     widths.push_back(width_at(at(region.distance_px, segment.points_px[i])));
   }
   return !widths.empty() && geometry::median_of(widths) >= kDoubledWidths * sizes.width_px;
+}
+
+// Whether the rope may leave the image at `p`.
+bool at_border(const Vector2f& p, const Region& region, const Frame& frame, float width_px) {
+  const float u = p.x() + static_cast<float>(region.offset_px.x);
+  const float v = p.y() + static_cast<float>(region.offset_px.y);
+  return std::min({u, v, static_cast<float>(frame.width - 1) - u,
+                   static_cast<float>(frame.height - 1) - v}) < width_px;
 }
 
 // The ends that meet at a node lie left and right of their middle.
@@ -262,6 +279,35 @@ bool Strands::folds(int tip, int to) const {
   }
   const float away = (end(tip).point_px - end(to).point_px).norm();
   return away > kStraightOff * static_cast<float>(list[tip / 2].points_px.size());
+}
+
+Strands make_strands(const std::vector<Stretch>& stretches, float width_px, const Region& region,
+                     const Frame& frame) {
+  Strands strands;
+  strands.width_px = width_px;
+  strands.scale_px = std::max(kLeastScalePx, width_px);
+  const Cover cover(region, frame, width_px);
+  for (const Stretch& stretch : stretches) {
+    Strand strand;
+    Points points = stretch.points_px;
+    const auto masked = std::count_if(points.begin(), points.end(),
+                                      [&](const Vector2f& p) { return lit(region.mask, p); });
+    strand.covers_px = static_cast<float>(masked);
+    if (strand.covers_px < kLeastMasked * static_cast<float>(points.size())) continue;
+    strand.ring = stretch.closed;
+    for (int side = 0; side < 2; ++side) {
+      StrandEnd& end = strand.ends[side];
+      measure_end(points, region, frame, cover, strands.scale_px, end);
+      end.end_cost = at_border(points.front(), region, frame, width_px)
+                         ? 0
+                         : kEndUnseen * (1 - stretch.tips[side]);
+      end.link_cost = kLinkAtTip * stretch.tips[side];
+      std::reverse(points.begin(), points.end());
+    }
+    strand.points_px = std::move(points);
+    strands.list.push_back(std::move(strand));
+  }
+  return strands;
 }
 
 Strands make_strands(const Graph& graph, const Region& region, const Frame& frame) {

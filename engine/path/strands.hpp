@@ -18,6 +18,8 @@ struct StrandEnd {
   Eigen::Vector2f heading{0, 0};  ///< `outward`, turned on by the curvature to the very end
   float curvature = 0;            ///< 1 / px, along `outward`; positive from x to y
   bool cut = false;               ///< right behind it something nearer hides the rope
+  float end_cost = 0;             ///< what a path pays that ends here, where it is a tip
+  float link_cost = 0;            ///< and one that goes on from here, beside the link's own cost
   int crossing = -1;              ///< the crossing it runs into; -1: a tip
   int node = -1;                  ///< the graph's node there
   Eigen::Vector2f node_px{0, 0};  ///< and where it is
@@ -55,6 +57,18 @@ struct Strands {
   /// another one at the crossing that this one came from.
   [[nodiscard]] bool folds(int tip, int to) const;
 };
+
+/// A stretch of one strand as a strand field shows it: crop coordinates.
+struct Stretch {
+  std::vector<Eigen::Vector2f> points_px;  ///< about one pixel apart, two at least
+  std::array<float, 2> tips{0, 0};         ///< [0, 1] how much like the rope's own end each looks
+  bool closed = false;
+};
+
+/// Stretches as strands that meet nowhere: where one ends that is no tip, its rope goes on below
+/// another strand or an occluder, as a link. Only what lies on the mask is won by using it.
+[[nodiscard]] Strands make_strands(const std::vector<Stretch>& stretches, float width_px,
+                                   const Region& region, const Frame& frame);
 
 /// Crossings are formed (two forks with a bridge that both strands share count as one), strands
 /// are trimmed and measured. `frame` gives the depth.
