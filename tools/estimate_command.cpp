@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <string>
 #include <system_error>
@@ -32,6 +33,7 @@ struct EstimateOptions {
   Config config;
   RecordingArguments recordings;
   bool tensors = false;
+  bool field_overlay = false;
   bool quiet = false;
 };
 
@@ -79,11 +81,14 @@ Result<std::string> run_frame(const EstimateOptions& options, const FrameEntry& 
   const auto loaded = load_frame(entry);
   if (!loaded) return fail(loaded.error());
   Tensors tensors;
-  const auto estimate = options.tensors ? estimator.estimate(loaded->frame(), tensors)
-                                        : estimator.estimate(loaded->frame());
+  const bool looks_inside = options.tensors || options.field_overlay;
+  const auto estimate = looks_inside ? estimator.estimate(loaded->frame(), tensors)
+                                     : estimator.estimate(loaded->frame());
   if (!estimate) return fail(estimate.error());
-  const auto written = write_estimate(folder, loaded->frame(), *estimate,
-                                      options.tensors ? &tensors : nullptr, provenance, durability);
+  const auto written = write_estimate(
+      folder, loaded->frame(), *estimate,
+      {options.tensors ? &tensors : nullptr, options.field_overlay ? &tensors.strands : nullptr},
+      provenance, durability);
   if (!written) return fail(written.error());
   return summary(*estimate, entry, folder);
 }
@@ -141,6 +146,13 @@ void add_estimate_command(CLI::App& app, ExitCode& exit_code) {
       ->type_name("DIR");
   add_model_options(*command, options->config);
   command->add_flag("--tensors", options->tensors, "Write the model's tensors as .npy as well");
+  command
+      ->add_option("--overlay", options->field_overlay,
+                   "What overlay.png shows below the curve: plain, the image alone, or field, what "
+                   "the strand field says of it")
+      ->transform(CLI::CheckedTransformer(
+          std::map<std::string, bool>{{"plain", false}, {"field", true}}, CLI::ignore_case))
+      ->type_name("WHAT");
   command->add_flag("--quiet", options->quiet, "Print errors only");
   add_recording_options(*command, options->recordings);
   command->callback([options, &exit_code] { exit_code = run(*options); });

@@ -24,14 +24,15 @@ std::vector<std::string> other_names() {
 }
 
 Result<void> put_all(files::FolderUpdate& update, const Frame& frame, const Estimate& estimate,
-                     const Tensors* tensors, const Provenance& provenance) {
+                     const Extras& extras, const Provenance& provenance) {
   auto done = update.put("centerline.csv", frame::format_centerline(estimate.nodes));
   if (!done) return done;
-  const auto picture = frame::encode_png(draw_overlay(frame, estimate, provenance.device));
+  const auto picture =
+      frame::encode_png(draw_overlay(frame, estimate, provenance.device, extras.strands));
   if (!picture) return picture.error();
   if (done = update.put("overlay.png", *picture); !done) return done;
-  if (tensors != nullptr) {
-    const auto files = tensor_files(*tensors);
+  if (extras.tensors != nullptr) {
+    const auto files = tensor_files(*extras.tensors);
     if (!files) return files.error();
     for (const auto& [name, bytes] : *files) {
       if (done = update.put(name, bytes); !done) return done;
@@ -54,12 +55,12 @@ Result<void> forget_results(const fs::path& folder, Durability durability,
 }
 
 Result<void> write_estimate(const fs::path& folder, const Frame& frame, const Estimate& estimate,
-                            const Tensors* tensors, const Provenance& provenance,
+                            const Extras& extras, const Provenance& provenance,
                             Durability durability, const files::SystemCalls& calls) {
   if (auto done = forget_results(folder, durability, calls); !done) return done;
   auto update = files::FolderUpdate::begin(folder, kKeyFile, durability, calls);
   if (!update) return update.error();
-  auto done = put_all(*update, frame, estimate, tensors, provenance);
+  auto done = put_all(*update, frame, estimate, extras, provenance);
   return done ? update->commit() : done;
 }
 

@@ -19,11 +19,16 @@ namespace flowdlo::tools {
                                           Durability durability = Durability::kSynced,
                                           const files::SystemCalls& calls = files::kernel());
 
-/// Writes centerline.csv, overlay.png, the .npy files when there are `tensors`, and estimate.json
-/// last; what an earlier run left is removed before. Fails with kIo: then there is no
-/// estimate.json.
+/// What is written beyond the estimate; null: nothing.
+struct Extras {
+  const Tensors* tensors = nullptr;      ///< as .npy files
+  const SeenStrands* strands = nullptr;  ///< in the overlay
+};
+
+/// Writes centerline.csv, overlay.png, what `extras` name, and estimate.json last; what an earlier
+/// run left is removed before. Fails with kIo: then there is no estimate.json.
 [[nodiscard]] Result<void> write_estimate(const std::filesystem::path& folder, const Frame& frame,
-                                          const Estimate& estimate, const Tensors* tensors,
+                                          const Estimate& estimate, const Extras& extras,
                                           const Provenance& provenance,
                                           Durability durability = Durability::kSynced,
                                           const files::SystemCalls& calls = files::kernel());

@@ -31,6 +31,20 @@ void add_prior_options(CLI::App& command, Config& config) {
           CLI::ignore_case))
       ->type_name("RULE");
   command
+      .add_option(
+          "--field", config.field,
+          "The strand field, which sees strands where the mask leaves doubt: auto (where its "
+          "weights lie beside the model's) or off")
+      ->transform(
+          CLI::CheckedTransformer(std::map<std::string, FieldChoice>{{"auto", FieldChoice::kBeside},
+                                                                     {"off", FieldChoice::kOff}},
+                                  CLI::ignore_case))
+      ->type_name("CHOICE");
+  command
+      .add_option("--field-weights", config.field_weights,
+                  "Of the strand field, .safetensors [those beside the model's]")
+      ->type_name("FILE");
+  command
       .add_option("--rope-length", config.rope_length_m,
                   "Metres, where the rope's length is known; 0: unknown")
       ->capture_default_str()

@@ -46,6 +46,43 @@ cv::Mat background(const Frame& frame, const cv::Mat& mask) {
   return picture;
 }
 
+// The strand field over `picture`: how near an axis is says how much of its colour a pixel takes,
+// the direction says which colour; tips are white. Channels are engine/field/channel.hpp's.
+void tint(cv::Mat& picture, const SeenStrands& strands) {
+  enum Channel : std::size_t { kCentre, kCos, kSin, kTip };
+  if (strands.channels.empty()) return;
+  const cv::Size seen(strands.width, strands.height);
+  const auto pixels = static_cast<std::size_t>(seen.area());
+  cv::Mat paint(seen, CV_32FC4);  // BGR weighed, and the weight
+  for (std::size_t i = 0; i < pixels; ++i) {
+    const auto at = [&](Channel channel) { return strands.channels[channel * pixels + i]; };
+    const float length = std::max(1e-3F, std::hypot(at(kCos), at(kSin)));
+    const float tip = std::clamp(at(kTip), 0.0F, 1.0F);
+    const float weight = std::clamp(std::max(at(kCentre), tip), 0.0F, 1.0F);
+    const cv::Vec3f color = (1 - tip) * cv::Vec3f(127.5F * (1 + at(kCos) / length),
+                                                  127.5F * (1 + at(kSin) / length), 255) +
+                            tip * cv::Vec3f::all(255);
+    paint.ptr<cv::Vec4f>()[i] = {weight * color[0], weight * color[1], weight * color[2], weight};
+  }
+  const cv::Rect whole(strands.first_u, strands.first_v,
+                       std::max(1, cvRound(static_cast<float>(seen.width) / strands.scale_u)),
+                       std::max(1, cvRound(static_cast<float>(seen.height) / strands.scale_v)));
+  const cv::Rect part = whole & cv::Rect({0, 0}, picture.size());
+  if (part.empty()) return;
+  cv::resize(paint, paint, whole.size(), 0, 0, cv::INTER_AREA);
+  paint = paint(part - whole.tl());
+  for (int v = 0; v < part.height; ++v) {
+    for (int u = 0; u < part.width; ++u) {
+      auto& pixel = picture.at<cv::Vec3b>(part.y + v, part.x + u);
+      const auto& over = paint.at<cv::Vec4f>(v, u);
+      for (int k = 0; k < 3; ++k) {
+        pixel[k] =
+            cv::saturate_cast<std::uint8_t>((1 - over[3]) * static_cast<float>(pixel[k]) + over[k]);
+      }
+    }
+  }
+}
+
 // The mask's border pixels, as wide as the style's lines and with soft sides, [h, w] u8: how much
 // of the outline's colour each pixel takes. An operation on the image: a mask of a million pieces
 // costs no more than one of one.
@@ -194,13 +231,16 @@ void mark_drawn(cv::Mat& rope, const ProjectedCurve& curve, const EndMarkers& ma
 
 }  // namespace
 
-cv::Mat draw_overlay(const Frame& frame, const Estimate& estimate, const std::string& device) {
+cv::Mat draw_overlay(const Frame& frame, const Estimate& estimate, const std::string& device,
+                     const SeenStrands* strands) {
   const int zoom = zoom_of(frame);
   const cv::Size size(frame.width * zoom, frame.height * zoom);
   const cv::Mat mask = mask_of(frame);
   cv::Mat picture;
   cv::Mat rope;
-  cv::resize(background(frame, mask), picture, size, 0, 0, cv::INTER_NEAREST);
+  cv::Mat below = background(frame, mask);
+  if (strands != nullptr) tint(below, *strands);
+  cv::resize(below, picture, size, 0, 0, cv::INTER_NEAREST);
   cv::resize(mask, rope, size, 0, 0, cv::INTER_NEAREST);
 
   const OverlayStyle style(size.width);

@@ -11,8 +11,10 @@ namespace flowdlo::tools {
 
 /// The colour image, dimmed (the mask where there is none), with the mask's outline, the curve, its
 /// ends A and B, and a legend. BGR, 8 bits; the frame's size, or a whole multiple of it when the
-/// frame is under 480 px wide. The strand nearer to the camera is drawn over the other.
+/// frame is under 480 px wide. The strand nearer to the camera is drawn over the other. With
+/// `strands` the image below shows what the strand field says: axes coloured by direction, tips
+/// white.
 [[nodiscard]] cv::Mat draw_overlay(const Frame& frame, const Estimate& estimate,
-                                   const std::string& device);
+                                   const std::string& device, const SeenStrands* strands = nullptr);
 
 }  // namespace flowdlo::tools

@@ -49,6 +49,7 @@ class Gathering {
 
 Result<std::vector<std::pair<std::string, std::string>>> tensor_files(const Tensors& tensors) {
   constexpr int kVisible = 256;
+  constexpr int kStrandChannels = 10;
   const int draws = tensors.draws;
   const int path_points = static_cast<int>(tensors.path.size() / 2);
   Gathering files;
@@ -62,6 +63,15 @@ Result<std::vector<std::pair<std::string, std::string>>> tensor_files(const Tens
   files.add("draw_support.npy", tensors.draw_support, {draws, kNodes}, Type::kU8);
   files.add("prediction.npy", tensors.prediction, {draws, kNodes, 3});
   files.add("mask_field.npy", tensors.mask_field, {4, tensors.field_height, tensors.field_width});
+  const SeenStrands& strands = tensors.strands;
+  if (!strands.channels.empty()) {
+    files.add("strand_field.npy", strands.channels,
+              {kStrandChannels, strands.height, strands.width});
+    files.add("strand_region.npy",
+              {static_cast<float>(strands.first_u), static_cast<float>(strands.first_v),
+               strands.scale_u, strands.scale_v},
+              {4});
+  }
   return std::move(files).result();
 }
 

@@ -12,12 +12,13 @@
 namespace flowdlo::tools {
 
 /// Every file name that tensor_files can return.
-inline constexpr std::array<const char*, 10> kTensorFileNames = {
-    "source.npy",  "visible.npy",    "visible_valid.npy", "path.npy",       "prior.npy",
-    "support.npy", "draw_prior.npy", "draw_support.npy",  "prediction.npy", "mask_field.npy"};
+inline constexpr std::array<const char*, 12> kTensorFileNames = {
+    "source.npy",     "visible.npy",    "visible_valid.npy", "path.npy",
+    "prior.npy",      "support.npy",    "draw_prior.npy",    "draw_support.npy",
+    "prediction.npy", "mask_field.npy", "strand_field.npy",  "strand_region.npy"};
 
-/// File name and bytes of each tensor. Fails with kInternal when a tensor has not the shape that
-/// `tensors` itself states.
+/// File name and bytes of each tensor; those of the strand field where there is one. Fails with
+/// kInternal when a tensor has not the shape that `tensors` itself states.
 [[nodiscard]] Result<std::vector<std::pair<std::string, std::string>>> tensor_files(
     const Tensors& tensors);
 

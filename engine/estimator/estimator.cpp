@@ -7,6 +7,7 @@
 #endif
 
 #include <algorithm>
+#include <optional>
 #include <vector>
 
 #include "estimator/candidates.hpp"
@@ -19,6 +20,8 @@
 #include "estimator/tensors.hpp"
 #include "estimator/weights_location.hpp"
 #include "evidence/mask_field.hpp"
+#include "field/network.hpp"
+#include "field/strand_field.hpp"
 #include "flow/sampler.hpp"
 #include "gate/calibrated.hpp"
 #include "gate/gate.hpp"
@@ -27,6 +30,7 @@
 #include "prior/prior.hpp"
 #include "threads/aside.hpp"
 #include "threads/pool.hpp"
+#include "weights/field_weights.hpp"
 #include "weights/kept_file.hpp"
 #include "weights/weights.hpp"
 
@@ -63,6 +67,23 @@ flow::WeightsSource source_of(const weights::Loaded& loaded) {
     auto weights = first.lock();
     return weights ? weights : std::make_shared<const weights::Weights>(file->decoded());
   };
+}
+
+/// The network that sees strands, on one thread of the CPU: it works beside the model. None where
+/// it is off or no weights are to be had.
+Result<std::optional<field::Network>> open_field(const Config& config,
+                                                 const std::filesystem::path& weights) {
+  if (config.field == FieldChoice::kOff) return std::optional<field::Network>();
+  const auto file =
+      config.field_weights.empty() ? estimator::field_beside(weights) : config.field_weights;
+  if (file.empty()) return std::optional<field::Network>();
+  auto loaded = weights::load_field(file);
+  if (!loaded) return loaded.error();
+  const auto cpu = estimator::cpu_back_end(1);
+  auto network = field::Network::create(
+      std::make_shared<const weights::FieldWeights>(*std::move(loaded)), cpu.make_program);
+  if (!network) return network.error();
+  return std::optional(*std::move(network));
 }
 
 /// To the system, what making an estimator used once: a driver's compiler and the decoded weights
@@ -151,6 +172,7 @@ struct FLOWDLO_HIDDEN Estimator::Impl {
   flow::WeightsSource weights;
   std::string device;
   flow::Sampler sampler;
+  std::optional<field::Network> field;
   threads::Pool pool{config.threads};  // for what runs beside the model
   pid_t process = ::getpid();  // in a process forked from this one threads and device are missing
 
@@ -181,8 +203,10 @@ Result<std::unique_ptr<Estimator::Impl>> Estimator::Impl::create(const Config& w
   const auto weights = source_of(*loaded);
   auto sampler = flow::Sampler::create(weights, back_end->make_program, sampler_config(config));
   if (!sampler) return sampler.error();
+  auto field = open_field(config, *file);
+  if (!field) return field.error();
   return std::unique_ptr<Impl>(  // an aggregate, which Clang 14 makes by braces only
-      new Impl{config, metadata, weights, back_end->name, *std::move(sampler)});
+      new Impl{config, metadata, weights, back_end->name, *std::move(sampler), *std::move(field)});
 }
 
 /// The model's predictions. Where the device was left to us, a lost one is replaced by the CPU.
@@ -248,8 +272,8 @@ Result<Estimate> Estimator::Impl::estimate(const Frame& frame, Tensors* tensors)
       estimator::gather(frame, config.rope_length_m, prior_kind(), timings);  // Sec. 3.2, 3.3
   estimator::Stopwatch stage;
   if (!conditions) return conditions.error();
-  estimator::Rereading rereading(pool, readings(*conditions, frame), *conditions, frame,
-                                 config.rope_length_m, prior_kind());
+  estimator::Rereading rereading(pool, readings(*conditions, frame), field ? &*field : nullptr,
+                                 *conditions, frame, config.rope_length_m, prior_kind());
 
   const auto& hypotheses = conditions->hypotheses;
   const auto assigned = assign(hypotheses);
@@ -261,12 +285,12 @@ Result<Estimate> Estimator::Impl::estimate(const Frame& frame, Tensors* tensors)
   }
   stage.lap(timings.prior_ms);
 
-  const auto field = evidence::mask_field(frame);
+  const auto mask_field = evidence::mask_field(frame);
   stage.lap(timings.mask_field_ms);
 
   const auto prediction = sample({.frame = frame,  // Eq. (3.26)-(3.29)
                                   .cloud = conditions->cloud,
-                                  .field = field,
+                                  .field = mask_field,
                                   .draw_priors = draw_priors,
                                   .visible = &conditions->visible});
   if (!prediction) return prediction.error();
@@ -297,7 +321,11 @@ Result<Estimate> Estimator::Impl::estimate(const Frame& frame, Tensors* tensors)
   if (tensors != nullptr) {
     *tensors = estimator::collect_tensors(
         sampler.source(), conditions->paths.ranked[hypotheses.front().path],
-        hypotheses.front().prior, draw_priors, *prediction, field);
+        hypotheses.front().prior, draw_priors, *prediction, mask_field);
+    if (field) {
+      const auto seen = field::see(frame, conditions->paths.rope_width_px, *field);
+      if (seen) tensors->strands = estimator::seen_strands(*seen);
+    }
   }
   return estimate;
 }

@@ -7,11 +7,13 @@
 #include <utility>
 
 #include "estimator/confidence.hpp"
+#include "field/strand_field.hpp"
 #include "gate/one_rope.hpp"
 #include "gate/tube_score.hpp"
 #include "geometry/polyline.hpp"
 #include "guard/guarded.hpp"
 #include "path/limits.hpp"
+#include "path/strand_reading.hpp"
 
 namespace flowdlo::estimator {
 namespace {
@@ -22,12 +24,12 @@ constexpr double kOddsScore = 1;    // score that makes a hypothesis e times as 
 
 using Reading = std::vector<Hypothesis>;  // what one reading brought forth, best first
 
-/// What one reading makes of the frame; nothing where it fails.
-Reading read_as(path::Reading kind, const Conditions& conditions, const Frame& frame,
-                double rope_length_m, weights::PriorKind prior_kind) {
+/// Reading made of paths; nothing where it fails.
+template <class Trace>
+Reading read_by(const Trace& trace, const Conditions& conditions, const Frame& frame,
+                weights::PriorKind prior_kind) {
   auto reading = guard::guarded("second look", [&]() -> Result<Reading> {
-    const auto paths = path::trace_as(kind, frame, conditions.paths.rope_width_px,
-                                      {.rope_length_m = rope_length_m});
+    const Result<path::Traversals> paths = trace();
     if (!paths) return paths.error();
     return lift_all(*paths, conditions.cloud, conditions.visible, frame, prior_kind);
   });
@@ -38,6 +40,14 @@ Reading read_as(path::Reading kind, const Conditions& conditions, const Frame& f
   }
   if (reading->size() > kOfEach) reading->resize(kOfEach);
   return *std::move(reading);
+}
+
+/// The paths along the axes that the network sees.
+Result<path::Traversals> trace_seen(field::Network& network, const Frame& frame,
+                                    float rope_width_px, const path::TraceConfig& config) {
+  const auto seen = field::see(frame, rope_width_px, network);
+  if (!seen) return seen.error();
+  return path::trace_strands(frame, *seen, config);
 }
 
 bool same_place(const Hypothesis& a, const Hypothesis& b, double radius_m) {
@@ -108,22 +118,30 @@ std::vector<path::Reading> worth_reading(const Conditions& conditions, const Fra
   return path::further_readings(frame, paths.rope_width_px);
 }
 
-Rereading::Rereading(threads::Pool& pool, std::vector<path::Reading> kinds,
+Rereading::Rereading(threads::Pool& pool, std::vector<path::Reading> kinds, field::Network* field,
                      const Conditions& conditions, const Frame& frame, double rope_length_m,
                      weights::PriorKind prior_kind)
     : kinds_(std::move(kinds)),
+      field_(kinds_.empty() ? nullptr : field),
       conditions_(conditions),
       frame_(frame),
       rope_length_m_(rope_length_m),
       prior_kind_(prior_kind),
-      reads_(kinds_.size()),
-      beside_(pool, static_cast<int>(kinds_.size()),
+      reads_(kinds_.size() + (field_ != nullptr ? 1 : 0)),
+      beside_(pool, static_cast<int>(reads_.size()),
               [this](int which) { read(static_cast<std::size_t>(which)); }) {}
 
 void Rereading::read(std::size_t which) {
   Read& result = reads_[which];
   result.begin = Clock::now();
-  result.hypotheses = read_as(kinds_[which], conditions_, frame_, rope_length_m_, prior_kind_);
+  const float width_px = conditions_.paths.rope_width_px;
+  const path::TraceConfig config{.rope_length_m = rope_length_m_};
+  const auto trace = [&] {
+    if (field_ != nullptr && which == 0) return trace_seen(*field_, frame_, width_px, config);
+    const std::size_t kind = which - (field_ != nullptr ? 1 : 0);
+    return path::trace_as(kinds_[kind], frame_, width_px, config);
+  };
+  result.hypotheses = read_by(trace, conditions_, frame_, prior_kind_);
   result.end = Clock::now();
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "estimator/conditions.hpp"
+#include "field/network.hpp"
 #include "flowdlo/frame.hpp"
 #include "path/readings.hpp"
 #include "threads/pool.hpp"
@@ -32,8 +33,11 @@ struct SecondLook {
 /// Further readings under way on the threads of a pool. What it is made of has to outlive it.
 class Rereading {
  public:
-  Rereading(threads::Pool& pool, std::vector<path::Reading> kinds, const Conditions& conditions,
-            const Frame& frame, double rope_length_m, weights::PriorKind prior_kind);
+  /// `kinds` of the mask, and with a network of a strand field the one that follows its axes, where
+  /// there are any other; null: none.
+  Rereading(threads::Pool& pool, std::vector<path::Reading> kinds, field::Network* field,
+            const Conditions& conditions, const Frame& frame, double rope_length_m,
+            weights::PriorKind prior_kind);
 
   /// What all readings hold. Those that fail are left out; without any the hypotheses are the
   /// conditions'. Once.
@@ -55,11 +59,12 @@ class Rereading {
   void read(std::size_t which);
 
   const std::vector<path::Reading> kinds_;
+  field::Network* const field_;  // read first, for it takes longest
   const Conditions& conditions_;
   const Frame frame_;
   const double rope_length_m_;
   const weights::PriorKind prior_kind_;
-  std::vector<Read> reads_;  // one a kind
+  std::vector<Read> reads_;  // one a reading
   threads::Beside beside_;   // last: it ends first
 };
 

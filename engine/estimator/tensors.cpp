@@ -1,5 +1,7 @@
 #include "estimator/tensors.hpp"
 
+#include "field/channel.hpp"
+
 namespace flowdlo::estimator {
 namespace {
 
@@ -48,6 +50,28 @@ Tensors collect_tensors(std::span<const float> source, const path::Path& path,
   for (const Centerline& draw : prediction.draws) append(tensors.prediction, draw);
   tensors.mask_field = planes(field);
   return tensors;
+}
+
+SeenStrands seen_strands(const field::StrandField& seen) {
+  const field::Region& region = seen.region;
+  SeenStrands strands{.width = region.size.width,
+                      .height = region.size.height,
+                      .first_u = region.box.x,
+                      .first_v = region.box.y,
+                      .scale_u = region.scale.x(),
+                      .scale_v = region.scale.y()};
+  const auto pixels = static_cast<std::size_t>(region.size.area());
+  strands.channels.resize(field::kChannels * pixels);
+  std::size_t pixel = 0;
+  for (int v = 0; v < region.size.height; ++v) {
+    const float* from = seen.channels.ptr<float>(v);
+    for (int u = 0; u < region.size.width; ++u, ++pixel) {
+      for (std::size_t channel = 0; channel < field::kChannels; ++channel) {
+        strands.channels[channel * pixels + pixel] = *from++;
+      }
+    }
+  }
+  return strands;
 }
 
 }  // namespace flowdlo::estimator

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "evidence/mask_field.hpp"
+#include "field/strand_field.hpp"
 #include "flow/sampler.hpp"
 #include "flowdlo/estimate.hpp"
 #include "path/path.hpp"
@@ -19,5 +20,8 @@ namespace flowdlo::estimator {
                                       std::span<const prior::Prior> draw_priors,
                                       const flow::Prediction& prediction,
                                       const evidence::MaskField& field);
+
+/// The field as planes.
+[[nodiscard]] SeenStrands seen_strands(const field::StrandField& seen);
 
 }  // namespace flowdlo::estimator

@@ -39,4 +39,10 @@ Result<std::filesystem::path> default_weights() {
           looked + "); name one"};
 }
 
+std::filesystem::path field_beside(const std::filesystem::path& weights) {
+  const auto file = weights.parent_path() / "field.safetensors";
+  std::error_code error;
+  return std::filesystem::is_regular_file(file, error) ? file : std::filesystem::path();
+}
+
 }  // namespace flowdlo::estimator

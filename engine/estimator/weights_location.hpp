@@ -11,4 +11,8 @@ namespace flowdlo::estimator {
 /// folders above it. Fails with kBadWeights, listing where it looked.
 [[nodiscard]] Result<std::filesystem::path> default_weights();
 
+/// The strand field's weights that belong to the model's: `field.safetensors` in their folder;
+/// empty where there is none.
+[[nodiscard]] std::filesystem::path field_beside(const std::filesystem::path& weights);
+
 }  // namespace flowdlo::estimator

@@ -22,6 +22,13 @@ enum class GateChoice {
   kCalibrated,  ///< a score fitted on synthetic scenes, over draws, prior and alternatives
 };
 
+/// Whether a small network sees the strands where a mask leaves doubt.
+enum class FieldChoice {
+  kBeside,  ///< where its weights are: Config::field_weights, or `field.safetensors` in the folder
+            ///< of Config::weights; not with the thesis' gate, which knows no doubt
+  kOff,     ///< the mask alone is read
+};
+
 /// How much of the model runs a frame.
 enum class Quality {
   kFull,  ///< Config::euler_steps and Config::draws
@@ -43,6 +50,8 @@ struct Config {
   std::uint64_t seed = 0;            ///< of the sources x_0; same seed and device: the same bits
   PriorChoice prior = PriorChoice::kOfWeights;
   GateChoice gate = GateChoice::kOfWeights;
+  FieldChoice field = FieldChoice::kBeside;
+  std::filesystem::path field_weights{};  ///< .safetensors; empty: beside `weights`, if there
   double rope_length_m = 0;  ///< of the whole rope, where known; 0: unknown. Helps at crossings.
   int threads = 0;           ///< of the CPU back end; 0: one for each core
 

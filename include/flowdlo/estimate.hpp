@@ -91,6 +91,17 @@ struct Estimate {
   Timings timings;
 };
 
+/// What the strand field says of the part of a frame around the mask; docs/field.md.
+struct SeenStrands {
+  int width = 0;
+  int height = 0;
+  int first_u = 0;  ///< column and row of the frame's pixel in the part's corner
+  int first_v = 0;
+  float scale_u = 1;  ///< pixels of the field for one of the frame
+  float scale_v = 1;
+  std::vector<float> channels{};  ///< [10, height, width]; empty: there is no field
+};
+
 /// The tensors behind one estimate, for parity tests and for the curious. Shapes outermost first;
 /// D draws, camera frame, metres unless said otherwise.
 struct Tensors {
@@ -107,6 +118,7 @@ struct Tensors {
   std::vector<std::uint8_t> draw_support;   ///< [D, 64]
   std::vector<float> prediction;            ///< [D, 64, 3] before the gate
   std::vector<float> mask_field;            ///< [4, H/2, W/2] mask, smoothed, u and v (half px)
+  SeenStrands strands{};                    ///< whether there was doubt or not
 };
 
 }  // namespace flowdlo

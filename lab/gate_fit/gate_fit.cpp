@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "estimator/device_choice.hpp"
+#include "field/network.hpp"
 #include "flowdlo/weights.hpp"
 #include "gate_fit/constants.hpp"
 #include "gate_fit/fit.hpp"
@@ -20,7 +21,9 @@
 #include "gate_fit/sample.hpp"
 #include "gate_fit/sample_file.hpp"
 #include "progress_bar.hpp"
+#include "reference/program.hpp"
 #include "threads/team.hpp"
+#include "weights/field_weights.hpp"
 #include "weights/weights.hpp"
 
 namespace {
@@ -40,6 +43,7 @@ constexpr int kPixels = 1280 * 720;
 
 struct Options {
   std::string weights;
+  std::string field;
   std::string cache;
   std::string constants;
   std::string split = "wide";
@@ -68,7 +72,8 @@ double known_length_m(const lab::SampleOrigin& origin, std::uint64_t index, doub
 
 struct Model {
   std::shared_ptr<const flowdlo::weights::Weights> weights;
-  std::optional<flowdlo::flow::Sampler> sampler;  ///< none: priors alone
+  std::optional<flowdlo::flow::Sampler> sampler;                ///< none: priors alone
+  std::shared_ptr<const flowdlo::weights::FieldWeights> field;  ///< null: none
 };
 
 Result<Model> open_model(const Options& options, bool with_sampler) {
@@ -76,6 +81,11 @@ Result<Model> open_model(const Options& options, bool with_sampler) {
   if (!loaded) return loaded.error();
   Model model;
   model.weights = std::make_shared<const flowdlo::weights::Weights>(*std::move(loaded));
+  if (!options.field.empty()) {
+    auto field = flowdlo::weights::load_field(options.field);
+    if (!field) return field.error();
+    model.field = std::make_shared<const flowdlo::weights::FieldWeights>(*std::move(field));
+  }
   if (!with_sampler) return model;
   const auto back_end = flowdlo::estimator::cpu_back_end(options.threads);
   auto sampler = flowdlo::flow::Sampler::create(
@@ -89,22 +99,32 @@ Result<Model> open_model(const Options& options, bool with_sampler) {
   return model;
 }
 
-/// A split that ends goes on with its next seed.
+/// One thread's own; none without weights.
+Result<std::optional<flowdlo::field::Network>> network_of(const Model& model) {
+  if (!model.field) return std::optional<flowdlo::field::Network>();
+  auto network = flowdlo::field::Network::create(
+      model.field, [] { return flowdlo::reference::create_program(1); });
+  if (!network) return network.error();
+  return std::optional(*std::move(network));
+}
+
+/// A split that ends goes on with its next seed. Colours take longest: for a strand field alone.
 Result<synth::SyntheticFrame> scene_of(const lab::SampleOrigin& origin, std::uint64_t index) {
   const synth::Split split = *synth::split_of(origin.split);
   const synth::Part part = *synth::part_of(origin.part);
   const std::uint64_t count = synth::scene_count(split, part);
   return synth::make_frame(split, part, count > 0 ? index / count : 0,
-                           count > 0 ? index % count : index, {.color = false});
+                           count > 0 ? index % count : index, {.color = !origin.field.empty()});
 }
 
 using Measured = Result<std::optional<lab::GateSample>>;
 
-Measured measured_one(const Options& options, const Batch& batch, Model& model, int number) {
+Measured measured_one(const Options& options, const Batch& batch, Model& model,
+                      flowdlo::field::Network* field, int number) {
   const std::uint64_t index = batch.origin.first + static_cast<std::uint64_t>(number);
   const auto scene = scene_of(batch.origin, index);
   if (!scene) return scene.error();
-  return lab::measure(*scene, model.sampler ? &*model.sampler : nullptr, options.draws,
+  return lab::measure(*scene, model.sampler ? &*model.sampler : nullptr, field, options.draws,
                       model.weights->metadata.variant.prior_kind,
                       known_length_m(batch.origin, index, scene->meta.length_m));
 }
@@ -119,8 +139,14 @@ Result<Samples> measured(const Options& options, const Batch& batch, int done) {
   std::atomic<int> next = done;
   std::mutex drawing;
   flowdlo::threads::work_together(model->sampler ? 1 : flowdlo::threads::cores(), [&](int) {
+    auto network = network_of(*model);
     for (int i = next++; i < batch.scenes; i = next++) {
-      all[static_cast<std::size_t>(i - done)] = measured_one(options, batch, *model, i);
+      Measured& one = all[static_cast<std::size_t>(i - done)];
+      if (!network) {
+        one = network.error();
+        continue;
+      }
+      one = measured_one(options, batch, *model, *network ? &**network : nullptr, i);
       const std::scoped_lock lock(drawing);
       bar.advance();
     }
@@ -157,10 +183,17 @@ Result<Samples> samples_of(const Options& options, const Batch& batch) {
   return std::move(kept.samples);
 }
 
+std::string field_of(const Options& options) {
+  if (options.field.empty()) return "";
+  const auto weights = flowdlo::weights::load_field(options.field);
+  return weights ? weights->notes : "";
+}
+
 Result<Samples> with_model(const Options& options) {
   const auto info = flowdlo::inspect_weights(options.weights);
   if (!info) return info.error();
   return samples_of(options, {.origin = {.weights_sha256 = info->sha256,
+                                         .field = field_of(options),
                                          .split = options.split,
                                          .part = options.part,
                                          .first = options.first,
@@ -174,6 +207,7 @@ Result<Samples> without_model(const Options& options) {
   if (options.more == 0) return Samples{};
   return samples_of(options,
                     {.origin = {.weights_sha256 = "",
+                                .field = field_of(options),
                                 .split = options.split,
                                 .part = options.part,
                                 .first = options.first + kApart},
@@ -185,7 +219,10 @@ Result<Samples> without_model(const Options& options) {
 Result<Samples> clean_without_model(const Options& options) {
   if (options.more == 0) return Samples{};
   return samples_of(options,
-                    {.origin = {.weights_sha256 = "", .split = "thesis", .part = options.part},
+                    {.origin = {.weights_sha256 = "",
+                                .field = field_of(options),
+                                .split = "thesis",
+                                .part = options.part},
                      .scenes = options.more / kCleanShare,
                      .file = options.cache.empty() ? "" : options.cache + "_thesis.jsonl"});
 }
@@ -231,6 +268,8 @@ int report(const Options& options) {
 void add_options(CLI::App& command, Options& options) {
   command.add_option("--weights", options.weights, "Weights of the model, .fdw")
       ->required()
+      ->check(CLI::ExistingFile);
+  command.add_option("--field", options.field, "Weights of a strand field, .safetensors")
       ->check(CLI::ExistingFile);
   command
       .add_option("--cache", options.cache,

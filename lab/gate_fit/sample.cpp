@@ -30,9 +30,9 @@ std::optional<Drawn> draw(const Frame& frame, const estimator::Conditions& condi
     priors.push_back(hypotheses[static_cast<std::size_t>(hypothesis)].prior);
     prior_nodes.push_back(priors.back().nodes);
   }
-  const auto field = evidence::mask_field(frame);
+  const auto mask_field = evidence::mask_field(frame);
   auto prediction = sampler->sample(
-      {.frame = frame, .cloud = conditions.cloud, .field = field, .draw_priors = priors});
+      {.frame = frame, .cloud = conditions.cloud, .field = mask_field, .draw_priors = priors});
   if (!prediction) return std::nullopt;
   drawn.prediction = *std::move(prediction);
   drawn.reports = gate::choose(drawn.prediction.draws, prior_nodes, prior_nodes.front(),
@@ -44,7 +44,8 @@ std::optional<Drawn> draw(const Frame& frame, const estimator::Conditions& condi
 }  // namespace
 
 std::optional<GateSample> measure(const synth::SyntheticFrame& scene, flow::Sampler* sampler,
-                                  int draws, weights::PriorKind kind, double rope_length_m) {
+                                  field::Network* field, int draws, weights::PriorKind kind,
+                                  double rope_length_m) {
   const Frame frame = scene.frame();
   Timings timings;
   const auto conditions = estimator::gather(frame, rope_length_m, kind, timings);
@@ -58,7 +59,7 @@ std::optional<GateSample> measure(const synth::SyntheticFrame& scene, flow::Samp
   sample.hard = scene.meta.hard();
   sample.truth = eval::canonical(scene.truth());
   threads::Pool alone(1);
-  const auto look = estimator::Rereading(alone, estimator::worth_reading(*conditions, frame),
+  const auto look = estimator::Rereading(alone, estimator::worth_reading(*conditions, frame), field,
                                          *conditions, frame, rope_length_m, kind)
                         .finish();
   sample.candidates =

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "field/network.hpp"
 #include "flow/sampler.hpp"
 #include "gate/candidate.hpp"
 #include "synth/synthetic_frame.hpp"
@@ -24,9 +25,10 @@ struct GateSample {
 };
 
 /// Nothing where the engine finds no path or the device fails. Priors alone where `sampler` is
-/// null. `rope_length_m` 0: unknown.
+/// null, without a strand field where `field` is. `rope_length_m` 0: unknown.
 [[nodiscard]] std::optional<GateSample> measure(const synth::SyntheticFrame& scene,
-                                                flow::Sampler* sampler, int draws,
-                                                weights::PriorKind kind, double rope_length_m);
+                                                flow::Sampler* sampler, field::Network* field,
+                                                int draws, weights::PriorKind kind,
+                                                double rope_length_m);
 
 }  // namespace flowdlo::lab

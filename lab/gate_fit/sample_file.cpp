@@ -105,9 +105,9 @@ GateSample sample_from(const Json& json) {
 
 Json to_json(const SampleOrigin& origin) {
   return {{"format", kFormat},     {"weights_sha256", origin.weights_sha256},
-          {"split", origin.split}, {"part", origin.part},
-          {"first", origin.first}, {"draws", origin.draws},
-          {"steps", origin.steps}};
+          {"field", origin.field}, {"split", origin.split},
+          {"part", origin.part},   {"first", origin.first},
+          {"draws", origin.draws}, {"steps", origin.steps}};
 }
 
 }  // namespace

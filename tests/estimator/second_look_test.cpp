@@ -4,7 +4,9 @@
 
 #include "gathered.hpp"
 #include "path/limits.hpp"
+#include "reference/program.hpp"
 #include "support/wave_frame.hpp"
+#include "weights/field_weights.hpp"
 
 namespace flowdlo {
 namespace {
@@ -18,6 +20,19 @@ class LookAgain : public ::testing::Test {
   [[nodiscard]] estimator::SecondLook look_all_ways(int threads = 1) const {
     threads::Pool pool(threads);
     return look(path::further_readings(frame_, conditions_.paths.rope_width_px), pool);
+  }
+  /// The shipped network beside the readings of the mask.
+  [[nodiscard]] estimator::SecondLook look_with_field(int threads = 1) const {
+    auto weights = weights::load_field(FLOWDLO_FIELD_WEIGHTS);
+    if (!weights) throw std::runtime_error(weights.error().message);
+    auto network =
+        field::Network::create(std::make_shared<const weights::FieldWeights>(*std::move(weights)),
+                               [] { return reference::create_program(1); });
+    threads::Pool pool(threads);
+    return estimator::Rereading(pool,
+                                path::further_readings(frame_, conditions_.paths.rope_width_px),
+                                &*network, conditions_, frame_, 0, weights::PriorKind::kRefined)
+        .finish();
   }
   [[nodiscard]] std::vector<path::Reading> worth_reading() const {
     return estimator::worth_reading(conditions_, frame_);
@@ -34,7 +49,8 @@ class LookAgain : public ::testing::Test {
  private:
   [[nodiscard]] estimator::SecondLook look(const std::vector<path::Reading>& kinds,
                                            threads::Pool& pool) const {
-    return estimator::Rereading(pool, kinds, conditions_, frame_, 0, weights::PriorKind::kRefined)
+    return estimator::Rereading(pool, kinds, nullptr, conditions_, frame_, 0,
+                                weights::PriorKind::kRefined)
         .finish();
   }
 
@@ -92,6 +108,29 @@ TEST_F(LookAgain, WhatTheFirstReadingMissedComesBehindWithTheVotesOfTheOthers) {
   EXPECT_GT(again.hypotheses[1].reading, 0);
   for (std::size_t i = 0; i < kNodes; ++i) {
     EXPECT_NEAR(again.hypotheses[1].prior.nodes[i].y, right[i].y, 0.01F);
+  }
+}
+
+TEST_F(LookAgain, TheStrandFieldIsOneReadingMoreAndFindsTheRope) {
+  lead_astray(0.2F);
+  const auto without = look_all_ways();
+  const auto with = look_with_field();
+  ASSERT_EQ(with.readings, without.readings + 1);
+  ASSERT_GE(with.hypotheses.size(), 2U);
+  const auto others = static_cast<float>(with.readings - 1);
+  EXPECT_NEAR(with.hypotheses[1].votes, others / (others + 1), 1e-5);
+}
+
+TEST_F(LookAgain, TheStrandFieldGivesTheSameOnAnyNumberOfThreads) {
+  lead_astray(0.2F);
+  const auto one = look_with_field(1);
+  const auto four = look_with_field(4);
+  ASSERT_EQ(one.hypotheses.size(), four.hypotheses.size());
+  for (std::size_t h = 0; h < one.hypotheses.size(); ++h) {
+    EXPECT_EQ(one.hypotheses[h].odds, four.hypotheses[h].odds);
+    for (std::size_t i = 0; i < kNodes; ++i) {
+      EXPECT_EQ(one.hypotheses[h].prior.nodes[i].x, four.hypotheses[h].prior.nodes[i].x);
+    }
   }
 }
 

@@ -93,6 +93,23 @@ TEST(EstimateCommand, TensorsAreWrittenOnRequest) {
               HasSubstr("(4, 30, 40)"));
 }
 
+TEST(EstimateCommand, TheStrandFieldIsWrittenAndDrawnOnRequest) {
+  const TemporaryFolder scratch;
+  const auto frame = write_frame(scratch.path()).string();
+  const auto picture = results(scratch.path(), "rope") / "overlay.png";
+  ASSERT_EQ(run_estimate(scratch.path(), {frame}).exit_code, 0);
+  const auto plain = test::read_text(picture);
+  ASSERT_EQ(run_estimate(scratch.path(), {frame, "--field-weights", FLOWDLO_FIELD_WEIGHTS,
+                                          "--tensors", "--overlay", "field"})
+                .exit_code,
+            0);
+  for (const char* name : {"strand_field.npy", "strand_region.npy"}) {
+    EXPECT_TRUE(fs::exists(results(scratch.path(), "rope") / name)) << name;
+  }
+  EXPECT_NE(test::read_text(picture), plain);
+  EXPECT_EQ(run_estimate(scratch.path(), {frame, "--overlay", "nothing"}).exit_code, 2);
+}
+
 TEST(EstimateCommand, QuietPrintsNothing) {
   const TemporaryFolder scratch;
   const auto outcome =

@@ -36,8 +36,8 @@ class FrameOutput : public testing::Test {
 
   [[nodiscard]] Result<void> write(const Tensors* tensors = nullptr,
                                    const files::SystemCalls& calls = files::kernel()) const {
-    return write_estimate(out(), frame_.frame(), test::sample_estimate(), tensors, kProvenance,
-                          Durability::kSynced, calls);
+    return write_estimate(out(), frame_.frame(), test::sample_estimate(), {.tensors = tensors},
+                          kProvenance, Durability::kSynced, calls);
   }
   [[nodiscard]] fs::path out() const { return parent_.path() / "out" / "rope"; }
   [[nodiscard]] std::set<std::string> files() const {
@@ -67,6 +67,8 @@ TEST_F(FrameOutput, HoldsTheTensorsWhenAskedFor) {
   tensors.visible_valid.resize(256);
   tensors.prior.resize(64 * 3);
   tensors.support.resize(64);
+  tensors.strands = {.width = 1, .height = 1};
+  tensors.strands.channels.resize(10);
   ASSERT_TRUE(write(&tensors));
   EXPECT_EQ(files().size(), 3 + kTensorFileNames.size());
 }

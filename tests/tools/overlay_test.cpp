@@ -54,6 +54,33 @@ TEST(Overlay, CurveIsColouredBySupport) {
   EXPECT_EQ(pixels_near(picture, kBridgedColor, supported), 0);
 }
 
+TEST(Overlay, TheStrandFieldColoursTheImageWhereItSeesAnAxis) {
+  const Scene scene;
+  // A field of twice the frame's pixels around column 300 and row 100, an upright axis in its
+  // middle, a tip at its top.
+  SeenStrands strands{
+      .width = 40, .height = 40, .first_u = 290, .first_v = 90, .scale_u = 2, .scale_v = 2};
+  strands.channels.assign(10 * 40 * 40, 0);
+  for (int v = 0; v < 40; ++v) {
+    for (int u = 16; u < 24; ++u) {
+      const auto pixel = static_cast<std::size_t>(v * 40 + u);
+      strands.channels[pixel] = 1;                               // centre
+      strands.channels[1600 + pixel] = -1;                       // twice a right angle
+      strands.channels[3 * 1600 + pixel] = v < 8 ? 1.0F : 0.0F;  // tip
+    }
+  }
+  const auto plain = draw_overlay(scene.frame(), Estimate{}, "cpu");
+  const auto tinted = draw_overlay(scene.frame(), Estimate{}, "cpu", &strands);
+  const auto at = [&](int u, int v) { return tinted.at<cv::Vec3b>(v, u); };
+  EXPECT_EQ(at(300, 105), cv::Vec3b(0, 128, 255));
+  EXPECT_EQ(at(300, 91), cv::Vec3b(255, 255, 255));
+  for (const auto& [u, v] : {std::pair{292, 100}, {308, 100}, {300, 88}, {300, 112}}) {
+    EXPECT_EQ(at(u, v), plain.at<cv::Vec3b>(v, u)) << u << ", " << v;
+  }
+  strands.first_u = 639;  // what reaches beyond the frame is left out
+  EXPECT_EQ(draw_overlay(scene.frame(), Estimate{}, "cpu", &strands).size(), plain.size());
+}
+
 TEST(Overlay, EndsAreMarkedBeyondTheTips) {
   const Scene scene;
   const auto picture = draw_overlay(scene.frame(), test::sample_estimate(), "cpu");

@@ -45,6 +45,22 @@ TEST(TensorFiles, HaveTheNamesAndShapesOfTheContract) {
   }
 }
 
+TEST(TensorFiles, TheStrandFieldIsWrittenWhereThereIsOne) {
+  auto tensors = whole();
+  tensors.strands = {
+      .width = 4, .height = 3, .first_u = 7, .first_v = 5, .scale_u = 2, .scale_v = 2};
+  tensors.strands.channels.resize(10 * 3 * 4);
+  const auto files = tensor_files(tensors);
+  ASSERT_TRUE(files) << files.error().message;
+  const std::map<std::string, std::string> bytes(files->begin(), files->end());
+  EXPECT_EQ(bytes.size(), kTensorFileNames.size());
+  EXPECT_THAT(bytes.at("strand_field.npy"), HasSubstr("'shape': (10, 3, 4)"));
+  EXPECT_THAT(bytes.at("strand_region.npy"), HasSubstr("'shape': (4,)"));
+  for (const auto& [name, content] : bytes) {
+    EXPECT_THAT(kTensorFileNames, testing::Contains(testing::StrEq(name)));
+  }
+}
+
 TEST(TensorFiles, AreAllAmongTheNamesThatACleanupKnows) {
   const auto files = tensor_files(whole());
   ASSERT_TRUE(files);

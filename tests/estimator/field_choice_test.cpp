@@ -1,0 +1,71 @@
+// Which weights of a strand field an estimator takes, and what it says of those that do not fit.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "../frame/temporary_folder.hpp"
+#include "estimator/weights_location.hpp"
+#include "flowdlo/estimator.hpp"
+#include "support/wave_frame.hpp"
+
+namespace flowdlo {
+namespace {
+
+namespace fs = std::filesystem;
+
+Config small(const fs::path& weights) {
+  return {.weights = weights, .device = "cpu", .euler_steps = 1, .draws = 1, .threads = 1};
+}
+
+TEST(FieldChoice, ItsWeightsLieBesideTheModels) {
+  EXPECT_EQ(estimator::field_beside(FLOWDLO_DEFAULT_WEIGHTS),
+            fs::path(FLOWDLO_DEFAULT_WEIGHTS).parent_path() / "field.safetensors");
+  EXPECT_TRUE(estimator::field_beside(FLOWDLO_WEIGHTS).empty());
+  EXPECT_TRUE(Estimator::create(small(FLOWDLO_DEFAULT_WEIGHTS)));
+  EXPECT_TRUE(Estimator::create(small(FLOWDLO_WEIGHTS)));
+}
+
+TEST(FieldChoice, WeightsThatAreNamedHaveToBeThere) {
+  Config config = small(FLOWDLO_DEFAULT_WEIGHTS);
+  config.field_weights = "/nowhere/field.safetensors";
+  const auto made = Estimator::create(config);
+  ASSERT_FALSE(made);
+  EXPECT_EQ(made.error().code, ErrorCode::kIo);
+  EXPECT_NE(made.error().message.find("/nowhere/field.safetensors"), std::string::npos);
+}
+
+TEST(FieldChoice, WeightsThatAreNoneAreRefusedUnlessTheFieldIsOff) {
+  const test::TemporaryFolder folder;
+  const fs::path file = folder.path() / "field.safetensors";
+  std::ofstream(file) << "no weights at all";
+  Config config = small(FLOWDLO_DEFAULT_WEIGHTS);
+  config.field_weights = file;
+  const auto made = Estimator::create(config);
+  ASSERT_FALSE(made);
+  EXPECT_EQ(made.error().code, ErrorCode::kBadWeights);
+  config.field = FieldChoice::kOff;
+  EXPECT_TRUE(Estimator::create(config));
+}
+
+TEST(FieldChoice, AClearFrameIsTheSameToTheLastBitWithoutIt) {
+  const testing::WaveFrame wave;
+  Config config = small(FLOWDLO_DEFAULT_WEIGHTS);
+  auto with = Estimator::create(config);
+  config.field = FieldChoice::kOff;
+  auto without = Estimator::create(config);
+  ASSERT_TRUE(with && without);
+  const auto a = with->estimate(wave.frame());
+  const auto b = without->estimate(wave.frame());
+  ASSERT_TRUE(a && b);
+  ASSERT_EQ(a->readings, 1);
+  EXPECT_EQ(a->confidence, b->confidence);
+  for (std::size_t i = 0; i < kNodes; ++i) {
+    EXPECT_EQ(a->nodes[i].x, b->nodes[i].x);
+    EXPECT_EQ(a->nodes[i].z, b->nodes[i].z);
+    EXPECT_EQ(a->sigma_m[i], b->sigma_m[i]);
+  }
+}
+
+}  // namespace
+}  // namespace flowdlo
