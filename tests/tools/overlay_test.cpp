@@ -56,10 +56,10 @@ TEST(Overlay, CurveIsColouredBySupport) {
 
 TEST(Overlay, TheStrandFieldColoursTheImageWhereItSeesAnAxis) {
   const Scene scene;
-  // A field of twice the frame's pixels around column 300 and row 100, an upright axis in its
+  // A field of twice the frame's pixels around column 300 and row 340, an upright axis in its
   // middle, a tip at its top.
   SeenStrands strands{
-      .width = 40, .height = 40, .first_u = 290, .first_v = 90, .scale_u = 2, .scale_v = 2};
+      .width = 40, .height = 40, .first_u = 290, .first_v = 330, .scale_u = 2, .scale_v = 2};
   strands.channels.assign(10 * 40 * 40, 0);
   for (int v = 0; v < 40; ++v) {
     for (int u = 16; u < 24; ++u) {
@@ -72,9 +72,9 @@ TEST(Overlay, TheStrandFieldColoursTheImageWhereItSeesAnAxis) {
   const auto plain = draw_overlay(scene.frame(), Estimate{}, "cpu");
   const auto tinted = draw_overlay(scene.frame(), Estimate{}, "cpu", &strands);
   const auto at = [&](int u, int v) { return tinted.at<cv::Vec3b>(v, u); };
-  EXPECT_EQ(at(300, 105), cv::Vec3b(0, 128, 255));
-  EXPECT_EQ(at(300, 91), cv::Vec3b(255, 255, 255));
-  for (const auto& [u, v] : {std::pair{292, 100}, {308, 100}, {300, 88}, {300, 112}}) {
+  EXPECT_EQ(at(300, 345), cv::Vec3b(0, 128, 255));
+  EXPECT_EQ(at(300, 331), cv::Vec3b(255, 255, 255));
+  for (const auto& [u, v] : {std::pair{292, 340}, {308, 340}, {300, 328}, {300, 352}}) {
     EXPECT_EQ(at(u, v), plain.at<cv::Vec3b>(v, u)) << u << ", " << v;
   }
   strands.first_u = 639;  // what reaches beyond the frame is left out
