@@ -247,7 +247,7 @@ cv::Mat draw_overlay(const Frame& frame, const Estimate& estimate, const std::st
   draw_mask_outline(picture, rope, style);
   const ProjectedCurve curve(estimate.nodes, frame.intrinsics, static_cast<float>(zoom));
   if (curve.drawable()) {
-    draw_curve(picture, curve, estimate, style);
+    if (strands == nullptr) draw_curve(picture, curve, estimate, style);
     draw_nodes(picture, curve, style);
     const auto markers = end_markers(curve, size, style);
     const cv::Scalar white(255, 255, 255);

@@ -13,7 +13,7 @@ namespace flowdlo::tools {
 /// ends A and B, and a legend. BGR, 8 bits; the frame's size, or a whole multiple of it when the
 /// frame is under 480 px wide. The strand nearer to the camera is drawn over the other. With
 /// `strands` the image below shows what the strand field says: axes coloured by direction, tips
-/// white.
+/// white. Of the curve the nodes alone are drawn then, so that it hides nothing.
 [[nodiscard]] cv::Mat draw_overlay(const Frame& frame, const Estimate& estimate,
                                    const std::string& device, const SeenStrands* strands = nullptr);
 
