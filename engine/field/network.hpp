@@ -18,7 +18,7 @@ using ProgramFactory = std::function<std::unique_ptr<ops::Program>()>;
 
 /// Blocks that are computed in one run. A larger region is computed in parts that overlap, so that
 /// memory has a bound: 0.3 MB a block, of every layer's activations.
-inline constexpr int kMostBlocks = 512;
+inline constexpr int kMostBlocks = 256;
 
 class Network {
  public:

@@ -178,10 +178,12 @@ Sight look(const Frame& frame, const Region& region) {
   };
   Sight sight;
   sight.focal_px = frame.intrinsics.fx * region.scale.x();
-  cv::Mat covered;
-  part(CV_8UC1, frame.mask.data()).convertTo(covered, CV_32F);
-  cv::threshold(covered, covered, 127, 1, cv::THRESH_BINARY);
-  sight.mask = resampled(covered, region.size);
+  {  // images of the frame's size go before the next ones come: they are large
+    cv::Mat covered;
+    part(CV_8UC1, frame.mask.data()).convertTo(covered, CV_32F);
+    cv::threshold(covered, covered, 127, 1, cv::THRESH_BINARY);
+    sight.mask = resampled(covered, region.size);
+  }
   const cv::Mat depth_m = part(CV_32FC1, frame.depth_m.data());
   cv::Mat measured(depth_m.size(), CV_32F);
   cv::Mat known(depth_m.size(), CV_32F);
@@ -194,7 +196,9 @@ Sight look(const Frame& frame, const Region& region) {
     }
   }
   const cv::Mat share = resampled(measured, region.size);
+  measured.release();
   sight.depth_m = resampled(known, region.size);
+  known.release();
   for (int v = 0; v < share.rows; ++v) {
     for (int u = 0; u < share.cols; ++u) {
       float& z = sight.depth_m.at<float>(v, u);

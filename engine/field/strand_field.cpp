@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "field/channel.hpp"
@@ -60,10 +61,12 @@ Error too_large(const Region& region) {
 /// Fails with kNoEvidence where the region is too large to be looked at.
 Result<cv::Mat> see_region(const Frame& frame, const Region& region, Network& network) {
   if (region.size.area() > kMostRegionPixels) return too_large(region);
-  const Sight sight = field::look(frame, region);
-  const BlockMap blocks = blocks_near(sight.mask);
+  auto sight = std::make_optional(field::look(frame, region));
+  const BlockMap blocks = blocks_near(sight->mask);
   if (blocks.blocks.size() > kMostSeenBlocks) return too_large(region);
-  return network.see(input_of(sight), blocks);
+  const cv::Mat input = input_of(*sight);
+  sight.reset();  // six images of the region's size
+  return network.see(input, blocks);
 }
 
 }  // namespace
