@@ -13,7 +13,7 @@ namespace flowdlo::lab {
 /// What the samples of one file have in common; samples of another origin are of no use.
 struct SampleOrigin {
   std::string weights_sha256;
-  std::string field;  ///< notes of the strand field's weights; empty: none
+  std::string field{};  ///< notes of the strand field's weights; empty: none
   std::string split;
   std::string part;
   std::uint64_t first = 0;

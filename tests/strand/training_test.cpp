@@ -89,6 +89,25 @@ TEST_F(FieldTraining, ResumesExactly) {
   EXPECT_EQ(largest_difference(whole, *resumed), 0);
 }
 
+TEST_F(FieldTraining, ANewRunMayBeginWithWhatAnEarlierOneLearned) {
+  State earlier = start(small_recipe(), torch::kCPU);
+  ASSERT_TRUE(train(earlier, options("earlier", 10), torch::kCPU));
+  Recipe recipe = small_recipe();
+  recipe.seed = 4;
+  const auto begun = start_from(earlier, recipe, torch::kCPU);
+  ASSERT_TRUE(begun) << begun.error().message;
+  EXPECT_EQ(begun->step, 0);
+  const auto learned = earlier.average->named_parameters();
+  for (const auto& item : begun->network->named_parameters()) {
+    EXPECT_TRUE(torch::equal(item.value(), learned[item.key()])) << item.key();
+  }
+  EXPECT_GT(largest_difference(*begun, start(recipe, torch::kCPU)), 1e-3);
+  recipe.network.coarse = 32;
+  const auto other = start_from(earlier, recipe, torch::kCPU);
+  ASSERT_FALSE(other);
+  EXPECT_EQ(other.error().code, ErrorCode::kBadInput);
+}
+
 TEST_F(FieldTraining, WhatIsNoCheckpointIsRefused) {
   EXPECT_FALSE(load_checkpoint(folder_->path() / "none.pt", torch::kCPU));
   const auto fault = load_checkpoint(patches() / "patches_00000.bin", torch::kCPU);
