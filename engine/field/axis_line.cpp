@@ -147,59 +147,69 @@ float turn_across(const Points& points, int first, int last) {
   return std::abs(std::atan2(in.x() * out.y() - in.y() * out.x(), in.dot(out)));
 }
 
+using Stretch = std::pair<int, int>;  // first and last point
+
+/// The short stretches of a line where another one comes close and this one turns; `close`
+/// [points].
+std::vector<Stretch> doubtful(const AxisLine& line, const std::vector<char>& close) {
+  const auto count = static_cast<int>(line.points_px.size());
+  std::vector<Stretch> found;
+  for (int i = 0; i < count; ++i) {
+    if (close[static_cast<std::size_t>(i)] == 0) continue;
+    int last = i;
+    while (last + 1 < count && close[static_cast<std::size_t>(last + 1)] != 0) ++last;
+    if (last - i < kBrief && turn_across(line.points_px, i, last) > kChangedOver) {
+      const int free = found.empty() ? 0 : found.back().second + 1;
+      found.emplace_back(std::max(i - kTrim, free), std::min(last + kTrim, count - 1));
+    }
+    i = last;
+  }
+  return found;
+}
+
+/// What is left of a line without `stretches`, which come in order; a closed one is opened.
+std::vector<AxisLine> without(AxisLine line, std::vector<Stretch> stretches) {
+  if (stretches.empty()) return {std::move(line)};
+  auto& points = line.points_px;
+  if (line.closed) {
+    const auto [first, last] = stretches.front();
+    std::rotate(points.begin(), points.begin() + last + 1, points.end());
+    points.resize(points.size() - static_cast<std::size_t>(last - first + 1));
+    for (auto& [from, to] : stretches) {
+      from -= last + 1;
+      to -= last + 1;
+    }
+    stretches.erase(stretches.begin());
+  }
+  std::vector<AxisLine> pieces;
+  int from = 0;
+  stretches.emplace_back(static_cast<int>(points.size()), 0);
+  for (const auto& [first, last] : stretches) {
+    if (first - from >= 2) {
+      pieces.emplace_back().points_px.assign(points.begin() + from, points.begin() + first);
+    }
+    from = last + 1;
+  }
+  return pieces;
+}
+
 /// The lines without the short stretches where one comes close to another and turns: there it may
 /// have changed over to the other, for directions mix at a crossing.
-std::vector<AxisLine> untangled(std::vector<AxisLine> lines, const cv::Size& size) {
+std::vector<AxisLine> untangled(const std::vector<AxisLine>& lines, const cv::Size& size) {
   const Neighbours neighbours(lines, size);
   std::vector<AxisLine> result;
   for (int l = 0; l < static_cast<int>(lines.size()); ++l) {
     AxisLine line = lines[static_cast<std::size_t>(l)];
-    auto count = static_cast<int>(line.points_px.size());
-    std::vector<char> close(line.points_px.size());
-    for (int i = 0; i < count; ++i)
-      close[static_cast<std::size_t>(i)] = neighbours.close(lines, l, i) ? 1 : 0;
+    const auto count = static_cast<int>(line.points_px.size());
+    std::vector<char> close;
+    for (int i = 0; i < count; ++i) close.push_back(neighbours.close(lines, l, i) ? 1 : 0);
     if (line.closed) {  // begun where nothing is near, so that no stretch goes over the end
-      const auto clear = std::find(close.begin(), close.end(), 0) - close.begin();
-      std::rotate(line.points_px.begin(), line.points_px.begin() + clear % count,
-                  line.points_px.end());
-      std::rotate(close.begin(), close.begin() + clear % count, close.end());
+      const auto clear = (std::find(close.begin(), close.end(), 0) - close.begin()) % count;
+      std::rotate(line.points_px.begin(), line.points_px.begin() + clear, line.points_px.end());
+      std::rotate(close.begin(), close.begin() + clear, close.end());
     }
-    std::vector<std::pair<int, int>> cuts;
-    for (int i = 0; i < count; ++i) {
-      if (close[static_cast<std::size_t>(i)] == 0) continue;
-      int last = i;
-      while (last + 1 < count && close[static_cast<std::size_t>(last + 1)] != 0) ++last;
-      const bool brief = last - i < kBrief;
-      if (brief && turn_across(line.points_px, i, last) > kChangedOver) {
-        cuts.emplace_back(std::max(i - kTrim, cuts.empty() ? 0 : cuts.back().second + 1),
-                          std::min(last + kTrim, count - 1));
-      }
-      i = last;
-    }
-    if (cuts.empty()) {
-      result.push_back(std::move(line));
-      continue;
-    }
-    if (line.closed) {  // opened at the first cut
-      const auto [first, last] = cuts.front();
-      std::rotate(line.points_px.begin(), line.points_px.begin() + last + 1, line.points_px.end());
-      line.points_px.resize(static_cast<std::size_t>(count - (last - first + 1)));
-      line.closed = false;
-      for (auto& [a, b] : cuts) {
-        a -= last + 1;
-        b -= last + 1;
-      }
-      cuts.erase(cuts.begin());
-    }
-    int from = 0;
-    cuts.emplace_back(static_cast<int>(line.points_px.size()), 0);
-    for (const auto& [first, last] : cuts) {
-      if (first - from >= 2) {
-        result.emplace_back().points_px.assign(line.points_px.begin() + from,
-                                               line.points_px.begin() + first);
-      }
-      from = last + 1;
-    }
+    const auto stretches = doubtful(line, close);
+    for (AxisLine& piece : without(std::move(line), stretches)) result.push_back(std::move(piece));
   }
   return result;
 }
