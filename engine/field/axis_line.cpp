@@ -30,8 +30,8 @@ float tip_near(const cv::Mat& field, const Vector2f& p) {
   const auto reach = static_cast<int>(kTipReach_px);
   for (int dv = -reach; dv <= reach; ++dv) {
     for (int du = -reach; du <= reach; ++du) {
-      const int u = static_cast<int>(std::lround(p.x())) + du;
-      const int v = static_cast<int>(std::lround(p.y())) + dv;
+      const int u = pixel_of(p).x + du;
+      const int v = pixel_of(p).y + dv;
       if (u < 0 || v < 0 || u >= field.cols || v >= field.rows) continue;
       most = std::max(most, field.ptr<float>(v)[u * kChannels + kTip]);
     }
@@ -97,8 +97,7 @@ class Neighbours {
     for (std::size_t l = 0; l < lines.size(); ++l) {
       for (std::size_t i = 0; i < lines[l].points_px.size(); ++i) {
         const Vector2f& p = lines[l].points_px[i];
-        const cv::Point pixel(static_cast<int>(std::lround(p.x())),
-                              static_cast<int>(std::lround(p.y())));
+        const cv::Point pixel = pixel_of(p);
         if (cv::Rect({0, 0}, size).contains(pixel)) {
           at_.at<cv::Vec2i>(pixel) = {static_cast<int>(l), static_cast<int>(i)};
         }
@@ -112,8 +111,7 @@ class Neighbours {
     const Vector2f& p = own.points_px[static_cast<std::size_t>(index)];
     const auto count = static_cast<int>(own.points_px.size());
     const auto reach = static_cast<int>(kClose_px) + 1;
-    const cv::Point middle(static_cast<int>(std::lround(p.x())),
-                           static_cast<int>(std::lround(p.y())));
+    const cv::Point middle = pixel_of(p);
     const cv::Rect around =
         cv::Rect(middle.x - reach, middle.y - reach, 2 * reach + 1, 2 * reach + 1) &
         cv::Rect({0, 0}, at_.size());

@@ -34,7 +34,7 @@ class Marks {
 
   /// What lies within `reach_px` of a line's point belongs to that line, unless to an earlier one.
   void set(const Vector2f& p, const Vector2f& along, float reach_px, int line, int index) {
-    const cv::Point middle = nearest(p);
+    const cv::Point middle = pixel_of(p);
     const float angle = std::atan2(along.y(), along.x());
     const auto reach = static_cast<int>(std::ceil(reach_px));
     for (int v = middle.y - reach; v <= middle.y + reach; ++v) {
@@ -52,7 +52,7 @@ class Marks {
 
   /// Whether a line runs by here in that direction; not what `line` has just left behind.
   [[nodiscard]] bool taken(const Vector2f& p, const Vector2f& along, int line, int index) const {
-    const cv::Point pixel = nearest(p);
+    const cv::Point pixel = pixel_of(p);
     if (!inside(pixel)) return true;
     const auto mark = marks_.at<cv::Vec2i>(pixel);
     if (mark[0] < 0 || (mark[0] == line && std::abs(mark[1] - index) <= kOwn)) return false;
@@ -62,9 +62,6 @@ class Marks {
   }
 
  private:
-  static cv::Point nearest(const Vector2f& p) {
-    return {static_cast<int>(std::lround(p.x())), static_cast<int>(std::lround(p.y()))};
-  }
   [[nodiscard]] bool inside(const cv::Point& p) const {
     return p.x >= 0 && p.y >= 0 && p.x < marks_.cols && p.y < marks_.rows;
   }

@@ -5,6 +5,7 @@
 
 #include "field/channel.hpp"
 #include "field/region.hpp"
+#include "field/surface.hpp"
 
 namespace flowdlo::field {
 namespace {
@@ -13,23 +14,10 @@ const float* pixel(const cv::Mat& field, int u, int v) {
   return field.ptr<float>(v) + u * kChannels;
 }
 
-/// Bilinear; 0 beyond the image.
-float centre_at(const cv::Mat& field, float u, float v) {
-  const auto left = static_cast<int>(std::floor(u));
-  const auto top = static_cast<int>(std::floor(v));
-  const float s = u - static_cast<float>(left);
-  const float t = v - static_cast<float>(top);
-  const auto at = [&](int x, int y) {
-    const bool inside = x >= 0 && y >= 0 && x < field.cols && y < field.rows;
-    return inside ? pixel(field, x, y)[kCentre] : 0.0F;
-  };
-  return (1 - t) * ((1 - s) * at(left, top) + s * at(left + 1, top)) +
-         t * ((1 - s) * at(left, top + 1) + s * at(left + 1, top + 1));
-}
-
 }  // namespace
 
 std::vector<RidgePoint> ridges(const cv::Mat& field, float least) {
+  const Surface surface(field);
   std::vector<RidgePoint> found;
   for (int v = 0; v < field.rows; ++v) {
     for (int u = 0; u < field.cols; ++u) {
@@ -41,8 +29,8 @@ std::vector<RidgePoint> ridges(const cv::Mat& field, float least) {
       const auto x = static_cast<float>(u);
       const auto y = static_cast<float>(v);
       const float here = at[kCentre];
-      const float left = centre_at(field, x + across_u, y + across_v);
-      const float right = centre_at(field, x - across_u, y - across_v);
+      const float left = surface.at({x + across_u, y + across_v}, kCentre);
+      const float right = surface.at({x - across_u, y - across_v}, kCentre);
       if (here < left || here <= right) continue;
       // The top of the parabola through all three.
       const float bend = left + right - 2 * here;

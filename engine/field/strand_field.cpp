@@ -4,36 +4,19 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <optional>
 #include <vector>
 
 #include "field/channel.hpp"
 #include "field/sight.hpp"
+#include "geometry/mask_box.hpp"
 
 namespace flowdlo::field {
 namespace {
 
-constexpr std::uint8_t kMaskThreshold = 127;  // 0.5 of an 8-bit mask
-constexpr float kSure = 0.5F;                 // centre and rope that are asked for the width
-constexpr std::size_t kLeastAsked = 30;       // pixels of them
-constexpr int kMostLooks = 3;                 // each at a smaller width
-
-cv::Rect mask_box(const Frame& frame) {
-  cv::Point low(frame.width, frame.height);
-  cv::Point high(-1, -1);
-  for (int v = 0; v < frame.height; ++v) {
-    const auto row =
-        frame.mask.subspan(static_cast<std::size_t>(v) * static_cast<std::size_t>(frame.width),
-                           static_cast<std::size_t>(frame.width));
-    for (int u = 0; u < frame.width; ++u) {
-      if (row[static_cast<std::size_t>(u)] <= kMaskThreshold) continue;
-      low = {std::min(low.x, u), std::min(low.y, v)};
-      high = {std::max(high.x, u), std::max(high.y, v)};
-    }
-  }
-  return high.x < 0 ? cv::Rect() : cv::Rect(low, high + cv::Point(1, 1));
-}
+constexpr float kSure = 0.5F;            // centre and rope that are asked for the width
+constexpr std::size_t kLeastAsked = 30;  // pixels of them
+constexpr int kMostLooks = 3;            // each at a smaller width
 
 /// The rope's width over kRope_px as the field has it, in the middle; 1 where it does not say.
 float seen_width(const cv::Mat& field) {
@@ -77,7 +60,8 @@ float width_px(const StrandField& seen) {
 }
 
 Result<StrandField> see(const Frame& frame, float rope_width_px, Network& network) {
-  const cv::Rect box = mask_box(frame);
+  const geometry::MaskBox mask = geometry::mask_box(frame);
+  const cv::Rect box(mask.left, mask.top, mask.width, mask.height);
   if (box.empty()) {
     return Error{ErrorCode::kNoEvidence,
                  "field: expected a mask, got none; check the segmentation"};

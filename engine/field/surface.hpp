@@ -6,8 +6,14 @@
 #include <optional>
 
 #include "field/channel.hpp"
+#include "geometry/pixel.hpp"
 
 namespace flowdlo::field {
+
+/// The pixel that a place lies in.
+[[nodiscard]] inline cv::Point pixel_of(const Eigen::Vector2f& p) {
+  return {geometry::nearest_px(p.x()), geometry::nearest_px(p.y())};
+}
 
 /// A view of `field` [height, width, kChannels], which has to outlive it. Bilinear; 0 beyond it.
 class Surface {

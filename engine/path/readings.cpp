@@ -74,7 +74,8 @@ void rescale(Reread& reread, float scale) {
 void keep_measured(Reread& reread) {
   for (int v = 0; v < reread.mask.rows; ++v) {
     for (int u = 0; u < reread.mask.cols; ++u) {
-      if (!geometry::measured(reread.depth_m.at<float>(v, u))) reread.mask.at<std::uint8_t>(v, u) = 0;
+      if (!geometry::measured(reread.depth_m.at<float>(v, u)))
+        reread.mask.at<std::uint8_t>(v, u) = 0;
     }
   }
   cv::morphologyEx(reread.mask, reread.mask, cv::MORPH_CLOSE, disc(1));
