@@ -8,7 +8,6 @@
 #include <filesystem>
 #include <map>
 #include <memory>
-#include <mutex>
 #include <opencv2/imgcodecs.hpp>
 #include <string>
 #include <vector>
@@ -17,10 +16,8 @@
 #include "field/sight.hpp"
 #include "field/strand_field.hpp"
 #include "path/path.hpp"
-#include "reference/program.hpp"
 #include "strand/measure.hpp"
-#include "threads/count.hpp"
-#include "threads/team.hpp"
+#include "strand/scene_range.hpp"
 
 namespace {
 
@@ -30,14 +27,10 @@ namespace strand = flowdlo::strand;
 namespace synth = flowdlo::synth;
 
 struct Options {
-  std::filesystem::path weights;
-  std::string part = "validation";
-  std::uint64_t first = 0;
-  std::uint64_t scenes = 100;
+  flowdlo::strand::SceneRange range;
   std::string drop = "nothing";
   double width = 1;
   bool width_of_mask = false;
-  int threads = 0;
   std::filesystem::path pictures;
   std::size_t worst = 12;
 };
@@ -115,7 +108,7 @@ cv::Mat picture(const flowdlo::Frame& frame, const field::StrandField& seen) {
 
 flowdlo::Result<Outcome> measure(const Options& options, std::uint64_t index,
                                  field::Network& network, cv::Mat* drawn) {
-  const auto part = *synth::part_of(options.part);
+  const auto part = *synth::part_of(options.range.part);
   synth::Render render;
   render.dense = true;
   auto scene = synth::make_frame(synth::Split::kWide, part, 0, index, render);
@@ -193,40 +186,24 @@ void report(const std::vector<Outcome>& outcomes) {
 }
 
 int run(const Options& options) {
-  const auto weights = flowdlo::weights::load_field(options.weights);
+  const auto weights = flowdlo::weights::load_field(options.range.weights);
   if (!weights) {
     fmt::print(stderr, "{}\n", weights.error().message);
     return 1;
   }
   const auto shared = std::make_shared<const flowdlo::weights::FieldWeights>(*weights);
-  const auto make = [] { return flowdlo::reference::create_program(1); };
-  std::vector<Outcome> outcomes;
-  std::mutex mutex;
-  std::atomic<std::uint64_t> next = 0;
-  std::string fault;
-  flowdlo::threads::work_together(flowdlo::threads::count(options.threads), [&](int) {
-    auto network = field::Network::create(shared, make);
-    for (std::uint64_t i = next++; i < options.scenes && network; i = next++) {
-      auto outcome = measure(options, options.first + i, *network, nullptr);
-      const std::lock_guard lock(mutex);
-      if (outcome) {
-        outcomes.push_back(*std::move(outcome));
-      } else {
-        fault = outcome.error().message;
-      }
-    }
-  });
-  if (!fault.empty()) fmt::print(stderr, "a scene failed: {}\n", fault);
+  auto outcomes = flowdlo::strand::over_scenes<Outcome>(
+      options.range, shared, [&](std::uint64_t index, field::Network& network) {
+        return measure(options, index, network, nullptr);
+      });
   if (outcomes.empty()) return 1;
-  std::sort(outcomes.begin(), outcomes.end(),
-            [](const Outcome& a, const Outcome& b) { return a.index < b.index; });
   report(outcomes);
   if (options.pictures.empty()) return 0;
   std::stable_sort(outcomes.begin(), outcomes.end(), [](const Outcome& a, const Outcome& b) {
     return a.field.places - a.field.found > b.field.places - b.field.found;
   });
   std::filesystem::create_directories(options.pictures);
-  auto network = field::Network::create(shared, make);
+  auto network = strand::one_network(shared);
   for (std::size_t i = 0; i < std::min(options.worst, outcomes.size()) && network; ++i) {
     cv::Mat drawn;
     if (!measure(options, outcomes[i].index, *network, &drawn)) continue;
@@ -244,20 +221,14 @@ int run(const Options& options) {
 int main(int argc, char** argv) {
   CLI::App app{"What a strand field finds on scenes with truth, beside thinning of the mask"};
   Options options;
-  app.add_option("--field", options.weights, "Weights of the field, .safetensors")
-      ->required()
-      ->check(CLI::ExistingFile);
-  app.add_option("--part", options.part, "Of the wide split")
-      ->check(CLI::IsMember({"training", "validation"}));
-  app.add_option("--first", options.first, "Index of the first scene");
-  app.add_option("--scenes", options.scenes, "How many")->check(CLI::Range(1, 1000000));
+  options.range.scenes = 100;
+  flowdlo::strand::add_options(app, options.range);
   app.add_option("--drop", options.drop, "What the camera does not give")
       ->check(CLI::IsMember({"nothing", "color", "depth", "both"}));
   app.add_option("--width", options.width, "The width believed, over the true one")
       ->check(CLI::Range(0.1, 10.0));
   app.add_flag("--width-of-mask", options.width_of_mask,
                "Believe the width that the path measures");
-  app.add_option("--threads", options.threads, "0: one a core")->check(CLI::Range(0, 1024));
   app.add_option("--pictures", options.pictures, "Folder for pictures of the worst scenes");
   app.add_option("--worst", options.worst, "How many pictures")->check(CLI::Range(0, 1000));
   CLI11_PARSE(app, argc, argv);

@@ -4,12 +4,10 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <atomic>
 #include <chrono>
 #include <filesystem>
 #include <map>
 #include <memory>
-#include <mutex>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <string>
@@ -22,11 +20,9 @@
 #include "field/channel.hpp"
 #include "field/strand_field.hpp"
 #include "path/strand_reading.hpp"
-#include "reference/program.hpp"
 #include "strand/measure.hpp"
 #include "strand/patch.hpp"
-#include "threads/count.hpp"
-#include "threads/team.hpp"
+#include "strand/scene_range.hpp"
 
 namespace {
 
@@ -35,11 +31,7 @@ namespace field = flowdlo::field;
 namespace synth = flowdlo::synth;
 
 struct Options {
-  std::filesystem::path weights;
-  std::string part = "validation";
-  std::uint64_t first = 0;
-  std::uint64_t scenes = 300;
-  int threads = 0;
+  flowdlo::strand::SceneRange range;
   double list_over_cm = 1e9;
   std::filesystem::path pictures;
 };
@@ -109,7 +101,7 @@ void draw(const std::filesystem::path& file, const field::StrandField& seen,
 
 flowdlo::Result<Outcome> measure(const Options& options, std::uint64_t index,
                                  field::Network& network) {
-  const auto part = *synth::part_of(options.part);
+  const auto part = *synth::part_of(options.range.part);
   auto scene = synth::make_frame(synth::Split::kWide, part, 0, index, synth::Render{});
   if (!scene) return scene.error();
   const flowdlo::Frame frame = scene->frame();
@@ -210,31 +202,17 @@ void report(const std::vector<Outcome>& outcomes, const Options& options) {
 
 int run(const Options& options) {
   if (!options.pictures.empty()) std::filesystem::create_directories(options.pictures);
-  const auto weights = flowdlo::weights::load_field(options.weights);
+  const auto weights = flowdlo::weights::load_field(options.range.weights);
   if (!weights) {
     fmt::print(stderr, "{}\n", weights.error().message);
     return 1;
   }
   const auto shared = std::make_shared<const flowdlo::weights::FieldWeights>(*weights);
-  const auto make = [] { return flowdlo::reference::create_program(1); };
-  std::vector<Outcome> outcomes;
-  std::mutex mutex;
-  std::atomic<std::uint64_t> next = 0;
-  flowdlo::threads::work_together(flowdlo::threads::count(options.threads), [&](int) {
-    auto network = field::Network::create(shared, make);
-    for (std::uint64_t i = next++; i < options.scenes && network; i = next++) {
-      auto outcome = measure(options, options.first + i, *network);
-      const std::lock_guard lock(mutex);
-      if (outcome) {
-        outcomes.push_back(*std::move(outcome));
-      } else {
-        fmt::print(stderr, "scene {}: {}\n", options.first + i, outcome.error().message);
-      }
-    }
-  });
+  auto outcomes = flowdlo::strand::over_scenes<Outcome>(
+      options.range, shared, [&](std::uint64_t index, field::Network& network) {
+        return measure(options, index, network);
+      });
   if (outcomes.empty()) return 1;
-  std::sort(outcomes.begin(), outcomes.end(),
-            [](const Outcome& a, const Outcome& b) { return a.index < b.index; });
   report(outcomes, options);
   return 0;
 }
@@ -244,14 +222,7 @@ int run(const Options& options) {
 int main(int argc, char** argv) {
   CLI::App app{"The centerline of the mask and of a strand field, before any model or gate"};
   Options options;
-  app.add_option("--field", options.weights, "Weights of the field, .safetensors")
-      ->required()
-      ->check(CLI::ExistingFile);
-  app.add_option("--part", options.part, "Of the wide split")
-      ->check(CLI::IsMember({"training", "validation"}));
-  app.add_option("--first", options.first, "Index of the first scene");
-  app.add_option("--scenes", options.scenes, "How many")->check(CLI::Range(1, 1000000));
-  app.add_option("--threads", options.threads, "0: one a core")->check(CLI::Range(0, 1024));
+  flowdlo::strand::add_options(app, options.range);
   app.add_option("--list-over", options.list_over_cm,
                  "Name scenes whose field's error is larger, cm");
   app.add_option("--pictures", options.pictures, "Folder for pictures of every scene");

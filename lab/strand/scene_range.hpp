@@ -1,0 +1,77 @@
+// SceneRange: which `wide` scenes a report goes over with which field, and the going.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <atomic>
+#include <cstdint>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "field/network.hpp"
+#include "reference/program.hpp"
+#include "threads/count.hpp"
+#include "threads/team.hpp"
+#include "weights/field_weights.hpp"
+
+namespace flowdlo::strand {
+
+struct SceneRange {
+  std::filesystem::path weights;
+  std::string part = "validation";
+  std::uint64_t first = 0;
+  std::uint64_t scenes = 300;
+  int threads = 0;  ///< 0: one a core
+};
+
+inline void add_options(CLI::App& app, SceneRange& range) {
+  app.add_option("--field", range.weights, "Weights of the field, .safetensors")
+      ->required()
+      ->check(CLI::ExistingFile);
+  app.add_option("--part", range.part, "Of the wide split")
+      ->check(CLI::IsMember({"training", "validation"}));
+  app.add_option("--first", range.first, "Index of the first scene");
+  app.add_option("--scenes", range.scenes, "How many")->check(CLI::Range(1, 1000000));
+  app.add_option("--threads", range.threads, "0: one a core")->check(CLI::Range(0, 1024));
+}
+
+/// A network on one thread of the CPU. Fails as Network::create does.
+[[nodiscard]] inline Result<field::Network> one_network(
+    const std::shared_ptr<const weights::FieldWeights>& weights) {
+  return field::Network::create(weights, [] { return reference::create_program(1); });
+}
+
+/// What `measure(index, network)` makes of each scene, by index; scenes that fail are told on
+/// stderr and left out. An Outcome has its scene's `index`.
+template <class Outcome, class Measure>
+std::vector<Outcome> over_scenes(const SceneRange& range,
+                                 const std::shared_ptr<const weights::FieldWeights>& weights,
+                                 const Measure& measure) {
+  std::vector<Outcome> outcomes;
+  std::mutex mutex;
+  std::atomic<std::uint64_t> next = 0;
+  threads::work_together(threads::count(range.threads), [&](int) {
+    auto network = one_network(weights);
+    for (std::uint64_t i = next++; i < range.scenes && network; i = next++) {
+      Result<Outcome> outcome = measure(range.first + i, *network);
+      const std::lock_guard lock(mutex);
+      if (outcome) {
+        outcomes.push_back(*std::move(outcome));
+      } else {
+        fmt::print(stderr, "scene {}: {}\n", range.first + i, outcome.error().message);
+      }
+    }
+  });
+  std::sort(outcomes.begin(), outcomes.end(),
+            [](const Outcome& a, const Outcome& b) { return a.index < b.index; });
+  return outcomes;
+}
+
+}  // namespace flowdlo::strand
