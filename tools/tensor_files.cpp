@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <nlohmann/json.hpp>
 
 #include "npy.hpp"
 
@@ -12,6 +14,24 @@ namespace flowdlo::tools {
 namespace {
 
 enum class Type { kBool, kU8 };
+
+constexpr std::array<const char*, 10> kChannelNames = {  // docs/field.md
+    "centre",    "cos",       "sin",   "tip",  "under",
+    "under_cos", "under_sin", "width", "rope", "edge"};
+
+/// Pixel (x, y) of the field lies at origin + scale * (x, y), pixels of the frame.
+std::string region_json(const SeenStrands& strands) {
+  const auto origin = [](int first, float pixels_of_field) {
+    return static_cast<double>(first) + 0.5 / static_cast<double>(pixels_of_field) - 0.5;
+  };
+  nlohmann::ordered_json json;
+  json["channels"] = kChannelNames;
+  json["origin"] = {origin(strands.first_u, strands.scale_u),
+                    origin(strands.first_v, strands.scale_v)};
+  json["scale"] = {1 / static_cast<double>(strands.scale_u),
+                   1 / static_cast<double>(strands.scale_v)};
+  return json.dump(2) + "\n";
+}
 
 /// Gathers the files and the shapes that do not fit.
 class Gathering {
@@ -25,6 +45,7 @@ class Gathering {
     files_.emplace_back(name,
                         type == Type::kBool ? npy_bool(values, shape) : npy_u8(values, shape));
   }
+  void add(const char* name, std::string content) { files_.emplace_back(name, std::move(content)); }
   Result<std::vector<std::pair<std::string, std::string>>> result() && {
     if (!faults_.empty()) return Error{ErrorCode::kInternal, faults_};
     return std::move(files_);
@@ -49,7 +70,6 @@ class Gathering {
 
 Result<std::vector<std::pair<std::string, std::string>>> tensor_files(const Tensors& tensors) {
   constexpr int kVisible = 256;
-  constexpr int kStrandChannels = 10;
   const int draws = tensors.draws;
   const int path_points = static_cast<int>(tensors.path.size() / 2);
   Gathering files;
@@ -65,12 +85,9 @@ Result<std::vector<std::pair<std::string, std::string>>> tensor_files(const Tens
   files.add("mask_field.npy", tensors.mask_field, {4, tensors.field_height, tensors.field_width});
   const SeenStrands& strands = tensors.strands;
   if (!strands.channels.empty()) {
-    files.add("strand_field.npy", strands.channels,
-              {kStrandChannels, strands.height, strands.width});
-    files.add("strand_region.npy",
-              {static_cast<float>(strands.first_u), static_cast<float>(strands.first_v),
-               strands.scale_u, strands.scale_v},
-              {4});
+    files.add("field.npy", strands.channels,
+              {static_cast<int>(kChannelNames.size()), strands.height, strands.width});
+    files.add("field_region.json", region_json(strands));
   }
   return std::move(files).result();
 }

@@ -15,9 +15,9 @@ namespace flowdlo::tools {
 inline constexpr std::array<const char*, 12> kTensorFileNames = {
     "source.npy",     "visible.npy",    "visible_valid.npy", "path.npy",
     "prior.npy",      "support.npy",    "draw_prior.npy",    "draw_support.npy",
-    "prediction.npy", "mask_field.npy", "strand_field.npy",  "strand_region.npy"};
+    "prediction.npy", "mask_field.npy", "field.npy",         "field_region.json"};
 
-/// File name and bytes of each tensor; those of the strand field where there is one. Fails with
+/// File name and bytes of each tensor, and where the strand field lies in the frame; those of the strand field where there is one. Fails with
 /// kInternal when a tensor has not the shape that `tensors` itself states.
 [[nodiscard]] Result<std::vector<std::pair<std::string, std::string>>> tensor_files(
     const Tensors& tensors);

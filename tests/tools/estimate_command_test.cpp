@@ -103,7 +103,7 @@ TEST(EstimateCommand, TheStrandFieldIsWrittenAndDrawnOnRequest) {
                                           "--tensors", "--overlay", "field"})
                 .exit_code,
             0);
-  for (const char* name : {"strand_field.npy", "strand_region.npy"}) {
+  for (const char* name : {"field.npy", "field_region.json"}) {
     EXPECT_TRUE(fs::exists(results(scratch.path(), "rope") / name)) << name;
   }
   EXPECT_NE(test::read_text(picture), plain);

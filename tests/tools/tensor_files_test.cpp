@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <map>
+#include <nlohmann/json.hpp>
 
 namespace flowdlo::tools {
 namespace {
@@ -54,8 +55,12 @@ TEST(TensorFiles, TheStrandFieldIsWrittenWhereThereIsOne) {
   ASSERT_TRUE(files) << files.error().message;
   const std::map<std::string, std::string> bytes(files->begin(), files->end());
   EXPECT_EQ(bytes.size(), kTensorFileNames.size());
-  EXPECT_THAT(bytes.at("strand_field.npy"), HasSubstr("'shape': (10, 3, 4)"));
-  EXPECT_THAT(bytes.at("strand_region.npy"), HasSubstr("'shape': (4,)"));
+  EXPECT_THAT(bytes.at("field.npy"), HasSubstr("'shape': (10, 3, 4)"));
+  const auto region = nlohmann::json::parse(bytes.at("field_region.json"));
+  EXPECT_EQ(region.at("channels").size(), 10U);
+  EXPECT_EQ(region.at("channels").at(3), "tip");
+  EXPECT_EQ(region.at("origin"), nlohmann::json({6.75, 4.75}));  // of a pixel half as large
+  EXPECT_EQ(region.at("scale"), nlohmann::json({0.5, 0.5}));
   for (const auto& [name, content] : bytes) {
     EXPECT_THAT(kTensorFileNames, testing::Contains(testing::StrEq(name)));
   }
