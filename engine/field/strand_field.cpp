@@ -17,6 +17,8 @@ namespace {
 constexpr float kSure = 0.5F;            // centre and rope that are asked for the width
 constexpr std::size_t kLeastAsked = 30;  // pixels of them
 constexpr int kMostLooks = 3;            // each at a smaller width
+constexpr float kSpare = 1.02F;          // a region that has to fit is smaller by this,
+constexpr int kMostFits = 6;             // and then once more
 
 /// The rope's width over kRope_px as the field has it, in the middle; 1 where it does not say.
 float seen_width(const cv::Mat& field) {
@@ -33,23 +35,44 @@ float seen_width(const cv::Mat& field) {
   return std::exp2(*middle);
 }
 
-Error too_large(const Region& region) {
+Error too_large(const cv::Rect& box, float rope_width_px) {
   return {ErrorCode::kNoEvidence,
-          fmt::format(
-              "field: expected the mask of a rope, at most {} pixels and {} blocks with the "
-              "rope {} px wide, got one of {} x {} pixels; check the segmentation",
-              kMostRegionPixels, kMostSeenBlocks, kRope_px, region.size.width, region.size.height)};
+          fmt::format("field: expected the mask of a rope, at most {} pixels and {} blocks near it "
+                      "with the rope {} px wide, got one of {} x {} pixels and a rope of {:.1f}; "
+                      "check the segmentation",
+                      kMostRegionPixels, kMostSeenBlocks, kLeastWidth * kRope_px, box.width,
+                      box.height, rope_width_px)};
 }
 
-/// Fails with kNoEvidence where the region is too large to be looked at.
-Result<cv::Mat> see_region(const Frame& frame, const Region& region, Network& network) {
-  if (region.size.area() > kMostRegionPixels) return too_large(region);
-  auto sight = std::make_optional(field::look(frame, region));
-  const BlockMap blocks = blocks_near(sight->mask);
-  if (blocks.blocks.size() > kMostSeenBlocks) return too_large(region);
-  const cv::Mat input = input_of(*sight);
-  sight.reset();  // six images of the region's size
-  return network.see(input, blocks);
+/// A region, and what of the frame lies there.
+struct View {
+  Region region;
+  Sight sight;
+  BlockMap blocks;
+};
+
+/// The region at the rope's width, or magnified less as far as it takes and strands can still be
+/// parted. Fails with kNoEvidence where it would still be too large to be looked at.
+Result<View> view_of(const Frame& frame, const cv::Rect& box, float rope_width_px) {
+  const cv::Size size(frame.width, frame.height);
+  const float magnified_px = std::max(rope_width_px, kRope_px / kMostScale);
+  float width_px = magnified_px;
+  for (int fit = 0; fit < kMostFits && width_px * kLeastWidth <= magnified_px; ++fit) {
+    Region region = region_around(box, size, width_px);
+    const double pixels = static_cast<double>(region.size.width) * region.size.height;
+    if (pixels > kMostRegionPixels) {
+      width_px *= kSpare * static_cast<float>(std::sqrt(pixels / kMostRegionPixels));
+      continue;
+    }
+    Sight sight = field::look(frame, region);
+    BlockMap blocks = blocks_near(sight.mask);
+    const auto seen = static_cast<float>(blocks.blocks.size());
+    if (blocks.blocks.size() <= kMostSeenBlocks) {
+      return View{region, std::move(sight), std::move(blocks)};
+    }
+    width_px *= kSpare * seen / static_cast<float>(kMostSeenBlocks);  // as many as it is long
+  }
+  return too_large(box, rope_width_px);
 }
 
 }  // namespace
@@ -68,20 +91,17 @@ Result<StrandField> see(const Frame& frame, float rope_width_px, Network& networ
   }
   StrandField result;
   float width_px = rope_width_px;
-  bool shrunk = false;
   for (int look = 0; look < kMostLooks; ++look) {
-    result.region = region_around(box, {frame.width, frame.height}, width_px);
-    auto seen = see_region(frame, result.region, network);
-    if (!seen && seen.error().code == ErrorCode::kNoEvidence && !shrunk) {  // as small as it may be
-      shrunk = true;
-      width_px /= kNarrow;
-      continue;
-    }
+    auto view = view_of(frame, box, width_px);
+    if (!view) return view.error();
+    if (look > 0 && view->region.size.area() <= result.region.size.area()) break;
+    const cv::Mat input = input_of(view->sight);
+    view->sight = {};  // six images of the region's size
+    auto seen = network.see(input, view->blocks);
     if (!seen) return seen.error();
-    result.channels = *std::move(seen);
+    result = {view->region, *std::move(seen)};
     const float share = seen_width(result.channels);
-    const bool magnified = kRope_px / width_px >= kMostScale;
-    if (share >= kNarrow || magnified || shrunk) break;
+    if (share >= kNarrow) break;
     width_px *= share;
   }
   return result;

@@ -22,9 +22,10 @@ struct StrandField {
 inline constexpr float kNarrow = 0.7F;
 
 /// Pixels of a region, 140 MB of them, and blocks of it near the mask, 0.4 s of one core, that are
-/// looked at. A region beyond that is magnified less, as far as strands can still be parted.
+/// looked at. A region beyond that is magnified less: down to a rope of kLeastWidth of its width.
 inline constexpr int kMostRegionPixels = 1 << 21;
 inline constexpr std::size_t kMostSeenBlocks = 1024;
+inline constexpr float kLeastWidth = 0.5F;
 
 /// `rope_width_px` is the rope's width in the frame as far as it is known. Where the field itself
 /// says that the rope is narrower than kNarrow of that, as in a mask that merges strands, it is

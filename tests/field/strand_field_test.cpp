@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "reference/program.hpp"
 #include "support/wave_frame.hpp"
 
@@ -35,6 +37,23 @@ TEST(StrandField, AMaskThatSpreadsFartherThanARopeIsRefused) {
   ASSERT_FALSE(field);
   EXPECT_EQ(field.error().code, ErrorCode::kNoEvidence);
   EXPECT_NE(field.error().message.find("check the segmentation"), std::string::npos);
+}
+
+TEST(StrandField, ALongThinRopeIsMagnifiedLess) {
+  constexpr int kSide = 420;  // a rope of 2 px, which four times magnified is 2.8 million pixels
+  const std::vector<float> depth_m(kSide * kSide, 0.5F);
+  std::vector<std::uint8_t> mask(kSide * kSide, 0);
+  for (std::size_t i = 0; i < kSide; ++i) {
+    for (const std::size_t u : {i, std::min<std::size_t>(i + 1, kSide - 1)}) {
+      mask[i * kSide + u] = 255;
+    }
+  }
+  auto network = seeded();
+  const auto field = see({kSide, kSide, {400, 400, 210, 210}, depth_m, mask, {}}, 2, network);
+  ASSERT_TRUE(field) << field.error().message;
+  EXPECT_LE(field->channels.total(), static_cast<std::size_t>(kMostRegionPixels));
+  EXPECT_LT(field->region.scale.x(), kMostScale);
+  EXPECT_GE(field->region.scale.x(), kLeastWidth * kMostScale);
 }
 
 TEST(StrandField, AnEmptyMaskHasNone) {
