@@ -9,13 +9,18 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <system_error>
+#include <utility>
+#include <vector>
 
 #include "bench_report.hpp"
 #include "durability_choice.hpp"
+#include "files/shown_name.hpp"
 #include "files/whole_file.hpp"
 #include "flowdlo/estimator.hpp"
 #include "flowdlo/frame_folder.hpp"
+#include "frame_list.hpp"
 #include "model_options.hpp"
 #include "progress_bar.hpp"
 #include "resident_memory.hpp"
@@ -28,10 +33,12 @@ namespace {
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
+constexpr int kCalls = 30;  // of one frame
+
 struct BenchOptions {
   fs::path frame;
   Config config;
-  int frames = 30;
+  std::optional<int> frames;
   fs::path json;
   bool quiet = false;
 };
@@ -58,35 +65,71 @@ double peak_resident_mb() {
   return static_cast<double>(usage.ru_maxrss) * 1024.0 / 1.0e6;  // Linux counts in KiB
 }
 
-Result<BenchReport> measure(const BenchOptions& options, const FrameFolder& folder) {
+// One after the other, again from the first after the last: of a set only the frame in turn is in
+// memory.
+class Frames {
+ public:
+  explicit Frames(std::vector<FrameEntry> entries) : entries_(std::move(entries)) {}
+
+  [[nodiscard]] int count() const { return static_cast<int>(entries_.size()); }
+
+  [[nodiscard]] Result<const FrameFolder*> at(int call) {
+    const auto turn = static_cast<std::size_t>(call) % entries_.size();
+    if (!held_ || held_turn_ != turn) {
+      auto read = load_frame_folder(entries_[turn].folder);
+      if (!read) return read.error();
+      held_ = *std::move(read);
+      held_turn_ = turn;
+    }
+    return &*held_;
+  }
+
+ private:
+  std::vector<FrameEntry> entries_;
+  std::optional<FrameFolder> held_;
+  std::size_t held_turn_ = 0;
+};
+
+// A set goes on after a frame without an estimate, which is what one of its frames may come to.
+Result<BenchReport> measure(const BenchOptions& options, Frames& frames) {
   const auto start = Clock::now();
   auto estimator = Estimator::create(options.config);
   if (!estimator) return estimator.error();
-  BenchReport report{folder.name,
-                     folder.width,
-                     folder.height,
-                     estimator->device(),
-                     threads::count(options.config.threads),
-                     estimator->draws(),
-                     estimator->euler_steps(),
-                     since_ms(start),
-                     0,
-                     {},
-                     0,
-                     0};
-  const auto first_start = Clock::now();
-  if (const auto first = estimator->estimate(folder.frame()); !first) return first.error();
-  report.first_ms = since_ms(first_start);
+  BenchReport report;
+  report.device = estimator->device();
+  report.threads = threads::count(options.config.threads);
+  report.draws = estimator->draws();
+  report.steps = estimator->euler_steps();
+  report.create_ms = since_ms(start);
+  const bool one = frames.count() == 1;
+  const int calls = options.frames.value_or(one ? kCalls : frames.count());
 
-  ProgressBar progress("bench", options.frames, options.quiet);
-  for (int i = 0; i < options.frames; ++i) {
-    const auto frame_start = Clock::now();
-    auto estimate = estimator->estimate(folder.frame());
-    const double total_ms = since_ms(frame_start);
-    if (!estimate) return estimate.error();
+  ProgressBar progress("bench", calls, options.quiet);
+  for (int call = -1; call < calls; ++call) {
+    const auto folder = frames.at(std::max(0, call));
+    if (!folder) return folder.error();
+    const auto begin = Clock::now();
+    auto estimate = estimator->estimate((*folder)->frame());
+    const double total_ms = since_ms(begin);
+    if (!estimate && one) return estimate.error();
+    if (call < 0) {
+      report.first_ms = total_ms;
+      report.frame = (*folder)->name;
+      report.width = (*folder)->width;
+      report.height = (*folder)->height;
+      continue;
+    }
+    progress.advance();
+    if (!estimate) {
+      ++report.without_estimate;
+      continue;
+    }
     report.timings.push_back(std::move(estimate->timings));
     report.timings.back().total_ms = total_ms;  // as the caller sees it
-    progress.advance();
+  }
+  if (!one) {
+    report.frame =
+        fmt::format("{} ({} frames)", files::shown(options.frame.filename().string()), frames.count());
   }
   report.rss_mb = resident_mb();
   report.rss_peak_mb = peak_resident_mb();
@@ -105,9 +148,11 @@ ExitCode run(const BenchOptions& options) {
     tell_error("{}\n", path.error().message);
     return ExitCode::kUsage;
   }
-  const auto folder = load_frame_folder(*path);
-  if (!folder) return complain(folder.error());
-  const auto report = measure(options, *folder);
+  auto entries = list_frames({*path});
+  if (!entries) return complain(entries.error());
+  Frames frames(*std::move(entries));
+  if (const auto first = frames.at(0); !first) return complain(first.error());
+  const auto report = measure(options, frames);
   if (!report) return complain(report.error());
   if (!options.json.empty()) {
     const auto saved = files::write_file(options.json, bench_json(*report), chosen_durability());
@@ -122,10 +167,13 @@ ExitCode run(const BenchOptions& options) {
 void add_bench_command(CLI::App& app, ExitCode& exit_code) {
   auto options = std::make_shared<BenchOptions>();
   auto* command = app.add_subcommand("bench", "Milliseconds a frame, stage by stage");
-  command->add_option("FRAME", options->frame, "A frame folder [the one that ships]");
+  command->add_option("FRAME", options->frame,
+                      "A frame folder [the one that ships], or a folder of them");
   add_model_options(*command, options->config);
-  command->add_option("--frames", options->frames, "Calls to time, after the first")
-      ->capture_default_str()
+  command
+      ->add_option("--frames", options->frames,
+                   "Calls to time, after the first; a set's frames take turns [30, of a set one a "
+                   "frame]")
       ->check(CLI::Range(1, 1000000));
   command->add_option("--json", options->json, "Write the figures to FILE")->type_name("FILE");
   command->add_flag("--quiet", options->quiet, "Print errors only");

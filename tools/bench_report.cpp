@@ -58,12 +58,13 @@ double rounded(double value) { return std::round(value * 1.0e4) / 1.0e4; }
 Json json_of(const Percentiles& percentiles) {
   return {{"p50", rounded(percentiles.p50)},
           {"p95", rounded(percentiles.p95)},
-          {"p99", rounded(percentiles.p99)}};
+          {"p99", rounded(percentiles.p99)},
+          {"max", rounded(percentiles.most)}};
 }
 
 std::string row(const std::string& name, const Percentiles& percentiles) {
-  return fmt::format("  {:<22} {:>10.3f} {:>10.3f} {:>10.3f}\n", name, percentiles.p50,
-                     percentiles.p95, percentiles.p99);
+  return fmt::format("  {:<22} {:>10.3f} {:>10.3f} {:>10.3f} {:>10.3f}\n", name, percentiles.p50,
+                     percentiles.p95, percentiles.p99, percentiles.most);
 }
 
 }  // namespace
@@ -77,7 +78,7 @@ Percentiles percentiles_of(std::vector<double> values) {
     const auto above = std::min(below + 1, values.size() - 1);
     return values[below] + (rank - static_cast<double>(below)) * (values[above] - values[below]);
   };
-  return {at(0.50), at(0.95), at(0.99)};
+  return {at(0.50), at(0.95), at(0.99), values.back()};
 }
 
 std::string bench_json(const BenchReport& report) {
@@ -90,6 +91,7 @@ std::string bench_json(const BenchReport& report) {
                {"draws", report.draws},
                {"steps", report.steps},
                {"frames", report.timings.size()},
+               {"without_estimate", report.without_estimate},
                {"create_ms", rounded(report.create_ms)},
                {"first_ms", rounded(report.first_ms)},
                {"total_ms", json_of(percentiles_of_stage(report, &Timings::total_ms))}};
@@ -113,8 +115,12 @@ std::string bench_table(const BenchReport& report) {
   text +=
       fmt::format("create {:.1f} ms, first frame {:.1f} ms, memory {:.0f} MB (peak {:.0f} MB)\n\n",
                   report.create_ms, report.first_ms, report.rss_mb, report.rss_peak_mb);
-  text += fmt::format("  {:<22} {:>10} {:>10} {:>10}\n",
-                      fmt::format("ms over {} frames", report.timings.size()), "p50", "p95", "p99");
+  if (report.without_estimate > 0) {
+    text += fmt::format("{} more calls came to no estimate\n\n", report.without_estimate);
+  }
+  text += fmt::format("  {:<22} {:>10} {:>10} {:>10} {:>10}\n",
+                      fmt::format("ms over {} frames", report.timings.size()), "p50", "p95", "p99",
+                      "max");
   for (const auto& stage : kStages) {
     text += row(stage.name, percentiles_of_stage(report, stage.time_ms));
   }

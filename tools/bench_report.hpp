@@ -14,14 +14,15 @@ struct Percentiles {
   double p50 = 0;
   double p95 = 0;
   double p99 = 0;
+  double most = 0;
 };
 
 /// Linear between the two nearest ranks; zeros when there are no values.
 [[nodiscard]] Percentiles percentiles_of(std::vector<double> values);
 
 struct BenchReport {
-  std::string frame;
-  int width = 0;
+  std::string frame;  ///< or the set, with the number of its frames
+  int width = 0;      ///< of the first frame
   int height = 0;
   std::string device;
   int threads = 0;  ///< of the CPU back end
@@ -29,7 +30,8 @@ struct BenchReport {
   int steps = 0;
   double create_ms = 0;
   double first_ms = 0;           ///< the first call, which is in none of the percentiles
-  std::vector<Timings> timings;  ///< of the calls after it
+  std::vector<Timings> timings;  ///< of the calls after it, as far as they came to an estimate
+  int without_estimate = 0;      ///< the other calls
   double rss_mb = 0;             ///< resident memory at the end
   double rss_peak_mb = 0;
 };

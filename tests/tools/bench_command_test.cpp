@@ -44,6 +44,22 @@ TEST(BenchCommand, FrameThatShipsIsFoundBesideTheExecutable) {
   EXPECT_EQ(Json::parse(test::read_text(file))["frame"], "overhand_loop");
 }
 
+TEST(BenchCommand, TheFramesOfASetTakeTurns) {
+  const TemporaryFolder scratch;
+  test::write_frame(scratch.path() / "set", "a");
+  test::write_frame(scratch.path() / "set", "b");
+  const auto file = scratch.path() / "bench.json";
+  const auto outcome = run_flowdlo(
+      scratch.path(), {"bench", (scratch.path() / "set").string(), "--device", "cpu", "--draws",
+                       "1", "--steps", "1", "--weights", FLOWDLO_WEIGHTS, "--json", file.string()});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const auto json = Json::parse(test::read_text(file));
+  EXPECT_EQ(json["frame"], "set (2 frames)");
+  EXPECT_EQ(json["frames"], 2);
+  EXPECT_EQ(json["without_estimate"], 0);
+  EXPECT_GE(json["total_ms"]["max"], json["total_ms"]["p50"]);
+}
+
 TEST(BenchCommand, FrameThatIsNoneEndsWithOneAndWritesNothing) {
   const TemporaryFolder scratch;
   const auto outcome =

@@ -32,6 +32,7 @@ TEST(Percentiles, AreLinearBetweenTheNearestRanks) {
   EXPECT_DOUBLE_EQ(percentiles.p50, 3.0);
   EXPECT_DOUBLE_EQ(percentiles.p95, 4.8);
   EXPECT_DOUBLE_EQ(percentiles.p99, 4.96);
+  EXPECT_DOUBLE_EQ(percentiles.most, 5.0);
 }
 
 TEST(Percentiles, OfOneValueAreThatValueAndOfNoneZero) {
