@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <numeric>
 
+#include "gate/image_curve.hpp"
 #include "geometry/polyline.hpp"
 
 namespace flowdlo::estimator {
@@ -44,6 +45,7 @@ gate::Candidate prior_candidate(const Hypothesis& hypothesis, int index, double 
   candidate.reread = hypothesis.reading > 0;
   candidate.votes = hypothesis.votes;
   candidate.odds = hypothesis.odds;
+  candidate.seen_odds = hypothesis.seen_odds;
   const auto& support = hypothesis.prior.support;
   candidate.supported =
       static_cast<float>(std::count(support.begin(), support.end(), std::uint8_t{1})) / kNodes;
@@ -73,6 +75,10 @@ std::vector<gate::Candidate> list_candidates(const SecondLook& look, float rope_
     const auto h = static_cast<std::size_t>(candidate.hypothesis);
     candidate.unseen_m = unseen_m(candidate.nodes, hypotheses[h].prior.support);
     candidate.length_off = length_off(candidate.nodes, rope_length_m);
+    if (look.axes) {
+      candidate.axes = gate::score_axes(
+          *look.axes, gate::image_curve(candidate.nodes, frame, look.axes->width_px));
+    }
     candidates.push_back(candidate);
   };
   for (std::size_t h = 0; h < hypotheses.size(); ++h) {

@@ -75,4 +75,13 @@ Choice choose_calibrated(std::span<const Candidate> candidates, const GateWeight
   return choice;
 }
 
+const GateWeights& fitted_weights(std::span<const Candidate> candidates) {
+  const bool seen = !candidates.empty() && candidates.front().axes.known;
+  return seen ? fitted_to_field() : fitted_to_mask();
+}
+
+Choice choose_calibrated(std::span<const Candidate> candidates) {
+  return choose_calibrated(candidates, fitted_weights(candidates));
+}
+
 }  // namespace flowdlo::gate

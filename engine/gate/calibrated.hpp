@@ -30,8 +30,13 @@ struct GateWeights {
   double sigma_share = 0;  ///< probability of being off by less than two sigma_m
 };
 
-/// Of the weights that come with FlowDLO.
-[[nodiscard]] const GateWeights& fitted_weights();
+/// Of the weights that come with FlowDLO: fitted to frames where the mask alone was read, and to
+/// those where a strand field was asked as well.
+[[nodiscard]] const GateWeights& fitted_to_mask();
+[[nodiscard]] const GateWeights& fitted_to_field();
+
+/// Those that the candidates of a frame ask for.
+[[nodiscard]] const GateWeights& fitted_weights(std::span<const Candidate> candidates);
 
 struct Choice {
   std::size_t chosen = 0;  ///< index among the candidates; ties go to the lower one
@@ -62,6 +67,7 @@ struct Choice {
 /// `candidates` is not empty, begins with the best prior, and lists a prior at the index of each
 /// hypothesis.
 [[nodiscard]] Choice choose_calibrated(std::span<const Candidate> candidates,
-                                       const GateWeights& weights = fitted_weights());
+                                       const GateWeights& weights);
+[[nodiscard]] Choice choose_calibrated(std::span<const Candidate> candidates);
 
 }  // namespace flowdlo::gate

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "flowdlo/centerline.hpp"
+#include "gate/axes_score.hpp"
 #include "gate/tube_score.hpp"
 
 namespace flowdlo::gate {
@@ -24,6 +25,8 @@ struct Candidate {
   bool reread = false;  ///< only another reading than that of the mask as given led here
   float votes = 1;      ///< [0, 1] share of the readings whose best traversal runs here
   float odds = 1;       ///< [0, 1] mean over the readings of how likely each says it is
+  float seen_odds = 0;  ///< [0, 1] how likely the strand field's reading says it is
+  AxesScore axes;       ///< how it agrees with the strand field
   float supported = 0;  ///< [0, 1] share of nodes with support
   float bridged = 0;    ///< [0, 1] share of its traversal on links over gaps
   float longest_gap = 0;  ///< of its traversal, rope widths

@@ -92,6 +92,32 @@ void add_explained(const TubeScore& before, const TubeScore& after, Row<Size>& r
   row.add(gained(before.depth_agreement, after.depth_agreement, 0.5));
 }
 
+/// By how much more of what the strand field shows `after` agrees with.
+template <std::size_t Size>
+void add_agreed(const AxesScore& before, const AxesScore& after, Row<Size>& row) {
+  row.add(gained(before.followed, after.followed, 0.02));
+  row.add(gained(before.followed, after.followed, 0.2));
+  row.add(gained(before.backed, after.backed, 0.02));
+  row.add(gained(before.backed, after.backed, 0.2));
+  row.add(gained(before.tips_met, after.tips_met, 1));
+  row.add(gained(after.tips_left, before.tips_left, 1));
+}
+
+/// How well it agrees with what the strand field shows.
+template <std::size_t Size>
+void add_seen(const Candidate& candidate, Row<Size>& row) {
+  const AxesScore& axes = candidate.axes;
+  const double known = axes.known ? 1 : 0;
+  row.add(static_cast<double>(candidate.seen_odds));
+  row.add(known * missing(axes.followed, 0.05));
+  row.add(known * missing(axes.followed, 0.4));
+  row.add(known * missing(axes.backed, 0.1));
+  row.add(known * missing(axes.backed, 0.5));
+  row.add(some(static_cast<double>(axes.twice), 0.2));
+  row.add(known * missing(axes.tips_met, 1));
+  row.add(some(static_cast<double>(axes.tips_left), 1));
+}
+
 /// By how much it looks better, or only different, than another.
 template <std::size_t Size>
 void add_gains(const Candidate& before, const Candidate& after, Row<Size>& row) {
@@ -183,6 +209,8 @@ std::array<double, kHypothesisFeatures> hypothesis_features(std::span<const Cand
   add_gains(candidates.front(), candidate, row);
   add_looks(candidate, row);
   row.add(radii(mean(prior.sigma_m), static_cast<double>(candidate.radius_m)));
+  add_agreed(candidates.front().axes, candidate.axes, row);
+  add_seen(candidate, row);
   return row.values;
 }
 
@@ -209,6 +237,7 @@ std::array<double, kClosenessFeatures> closeness_features(std::span<const Candid
   row.add(log_ratio(static_cast<double>(candidate.noise_m) + 0.1 * kMillimetre, kMillimetre, 3));
   row.add(radii(largest(candidate.unseen_m), radius_m));
   row.add(hypotheses / 4);
+  add_seen(candidate, row);
   return row.values;
 }
 

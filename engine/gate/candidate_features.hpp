@@ -23,15 +23,16 @@ inline constexpr std::size_t kDrawFeatures = 26;
                                                               std::size_t index);
 
 /// [kHypothesisFeatures] each in [-1, 1], the first is one: which hypothesis to prefer, by what it
-/// would return.
-inline constexpr std::size_t kHypothesisFeatures = 43;
+/// would return. What a strand field says comes last, and is zero where none was asked.
+inline constexpr std::size_t kHypothesisFeatures = 57;
 [[nodiscard]] std::array<double, kHypothesisFeatures> hypothesis_features(
     std::span<const Candidate> candidates, std::size_t index);
 
 /// [kClosenessFeatures] about in [-1, 1], the first is one: how near the chosen candidate is to the
 /// truth. `lead` is the score by which it leads the best candidate that runs elsewhere. Nothing of
-/// it is the model's, so that a fit on frames without one holds for frames with one.
-inline constexpr std::size_t kClosenessFeatures = 39;
+/// it is the model's, so that a fit on frames without one holds for frames with one. What a strand
+/// field says comes last, as above.
+inline constexpr std::size_t kClosenessFeatures = 47;
 [[nodiscard]] std::array<double, kClosenessFeatures> closeness_features(
     std::span<const Candidate> candidates, std::size_t index, double lead);
 

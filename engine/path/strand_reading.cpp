@@ -3,7 +3,6 @@
 #include <cmath>
 #include <vector>
 
-#include "field/axis_line.hpp"
 #include "geometry/polyline.hpp"
 #include "guard/guarded.hpp"
 #include "path/midline.hpp"
@@ -16,13 +15,13 @@ namespace {
 
 using Eigen::Vector2f;
 
-// A line of the field in the coordinates of `region`, its points a pixel apart.
-Stretch stretch_of(const field::AxisLine& line, const field::Region& seen, const Region& region) {
+// A line in the coordinates of `region`, its points a pixel apart.
+Stretch stretch_of(const field::AxisLine& line, const Region& region) {
   const Vector2f offset(static_cast<float>(region.offset_px.x),
                         static_cast<float>(region.offset_px.y));
   std::vector<Vector2f> points;
   points.reserve(line.points_px.size());
-  for (const Vector2f& p : line.points_px) points.push_back(seen.to_frame(p) - offset);
+  for (const Vector2f& p : line.points_px) points.push_back(p - offset);
   const auto count = static_cast<int>(std::lround(length_of(points))) + 1;
   if (count >= 2) points = geometry::resample(points, count);
   return {std::move(points), line.tips, line.closed};
@@ -30,16 +29,16 @@ Stretch stretch_of(const field::AxisLine& line, const field::Region& seen, const
 
 }  // namespace
 
-Result<Traversals> trace_strands(const Frame& frame, const field::StrandField& seen,
+Result<Traversals> trace_strands(const Frame& frame, const field::Axes& axes,
                                  const TraceConfig& config) {
   return guard::guarded("path", [&]() -> Result<Traversals> {
     const auto region = clean(frame);
     if (!region) return region.error();
     std::vector<Stretch> stretches;
-    for (const field::AxisLine& line : field::axis_lines(seen.channels)) {
-      stretches.push_back(stretch_of(line, seen.region, *region));
+    for (const field::AxisLine& line : axes.lines) {
+      stretches.push_back(stretch_of(line, *region));
     }
-    return rank(make_strands(stretches, field::width_px(seen), *region, frame), *region, frame,
+    return rank(make_strands(stretches, axes.width_px, *region, frame), *region, frame,
                 config);
   });
 }

@@ -2,16 +2,16 @@
 // apart.
 #pragma once
 
-#include "field/strand_field.hpp"
+#include "field/axes.hpp"
 #include "flowdlo/frame.hpp"
 #include "flowdlo/result.hpp"
 #include "path/path.hpp"
 
 namespace flowdlo::path {
 
-/// As `trace`, of the axes that `seen` shows. Expects a valid frame and what a network saw of it.
-/// Fails with kNoPath as `trace` does.
-[[nodiscard]] Result<Traversals> trace_strands(const Frame& frame, const field::StrandField& seen,
+/// As `trace`, of the axes that a network sees in the frame. Expects a valid frame. Fails with
+/// kNoPath as `trace` does.
+[[nodiscard]] Result<Traversals> trace_strands(const Frame& frame, const field::Axes& axes,
                                                const TraceConfig& config = {});
 
 }  // namespace flowdlo::path

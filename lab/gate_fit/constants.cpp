@@ -50,7 +50,8 @@ std::string network(const char* name, const Network& weights) {
 
 }  // namespace
 
-std::string constants_text(const gate::GateWeights& weights, const std::string& origin) {
+std::string constants_text(const gate::GateWeights& weights, const std::string& name,
+                           const std::string& origin) {
   std::string text =
       "// Written by flowdlo_gate_fit; do not edit. Each list is in the order of its features.\n";
   text += fmt::format("// {}\n", origin);
@@ -64,10 +65,9 @@ std::string constants_text(const gate::GateWeights& weights, const std::string& 
   text += network("closeness", weights.closeness);
   text += network("node_error", weights.node_error);
   text += fmt::format("    .sigma_share = {:.4f},\n", weights.sigma_share);
-  return text +
-         "};\n// clang-format on\n\n}  // namespace\n\nconst GateWeights& fitted_weights() { "
-         "return "
-         "kFitted; }\n\n}  // namespace flowdlo::gate\n";
+  text += "};\n// clang-format on\n\n}  // namespace\n\n";
+  text += fmt::format("const GateWeights& {}() {{ return kFitted; }}\n\n", name);
+  return text + "}  // namespace flowdlo::gate\n";
 }
 
 Result<void> write_text(const std::filesystem::path& file, const std::string& text) {

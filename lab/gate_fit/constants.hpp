@@ -9,9 +9,9 @@
 
 namespace flowdlo::lab {
 
-/// The whole text of engine/gate/fitted_weights.cpp; `origin` is one line that says what the fit
-/// was made on.
-[[nodiscard]] std::string constants_text(const gate::GateWeights& weights,
+/// The whole text of engine/gate/NAME.cpp, whose function is called `name`; `origin` is one line
+/// that says what the fit was made on.
+[[nodiscard]] std::string constants_text(const gate::GateWeights& weights, const std::string& name,
                                          const std::string& origin);
 
 /// Fails with kIo; no partial file stays.

@@ -1,5 +1,6 @@
 // flowdlo_gate_fit fit: fits the calibrated gate to a model on synthetic training frames and writes
-// engine/gate/fitted_weights.cpp. flowdlo_gate_fit report: what the gate is worth on frames that it
+// engine/gate/fitted_to_mask.cpp, or with a strand field fitted_to_field.cpp. flowdlo_gate_fit
+// report: what the gate is worth on frames that it
 // was not fitted on.
 #include <fmt/format.h>
 
@@ -108,13 +109,14 @@ Result<std::optional<flowdlo::field::Network>> network_of(const Model& model) {
   return std::optional(*std::move(network));
 }
 
-/// A split that ends goes on with its next seed. Colours take longest: for a strand field alone.
-Result<synth::SyntheticFrame> scene_of(const lab::SampleOrigin& origin, std::uint64_t index) {
+/// A split that ends goes on with its next seed.
+Result<synth::SyntheticFrame> scene_of(const lab::SampleOrigin& origin, std::uint64_t index,
+                                       bool color) {
   const synth::Split split = *synth::split_of(origin.split);
   const synth::Part part = *synth::part_of(origin.part);
   const std::uint64_t count = synth::scene_count(split, part);
   return synth::make_frame(split, part, count > 0 ? index / count : 0,
-                           count > 0 ? index % count : index, {.color = !origin.field.empty()});
+                           count > 0 ? index % count : index, {.color = color});
 }
 
 using Measured = Result<std::optional<lab::GateSample>>;
@@ -122,11 +124,17 @@ using Measured = Result<std::optional<lab::GateSample>>;
 Measured measured_one(const Options& options, const Batch& batch, Model& model,
                       flowdlo::field::Network* field, int number) {
   const std::uint64_t index = batch.origin.first + static_cast<std::uint64_t>(number);
-  const auto scene = scene_of(batch.origin, index);
+  auto scene = scene_of(batch.origin, index, false);
   if (!scene) return scene.error();
-  return lab::measure(*scene, model.sampler ? &*model.sampler : nullptr, field, options.draws,
-                      model.weights->metadata.variant.prior_kind,
-                      known_length_m(batch.origin, index, scene->meta.length_m));
+  const auto kind = model.weights->metadata.variant.prior_kind;
+  const double length_m = known_length_m(batch.origin, index, scene->meta.length_m);
+  // Colours take longest, and nothing but the strand field of a doubtful frame asks for them.
+  if (field != nullptr && lab::doubtful(*scene, kind, length_m)) {
+    scene = scene_of(batch.origin, index, true);
+    if (!scene) return scene.error();
+  }
+  return lab::measure(*scene, model.sampler ? &*model.sampler : nullptr, field, options.draws, kind,
+                      length_m);
 }
 
 /// Scenes `done` and later; several at a time where there is no model, which takes threads itself.
@@ -232,36 +240,49 @@ int failed(const Error& error) {
   return 1;
 }
 
+/// Those of frames that a strand field was asked about: what it says of others is not weighed.
+void keep_seen(Samples& samples) {
+  std::erase_if(
+      samples, [](const lab::GateSample& sample) { return !sample.candidates.front().axes.known; });
+}
+
 int fit(const Options& options) {
-  const auto samples = with_model(options);
+  auto samples = with_model(options);
   if (!samples) return failed(samples.error());
-  const auto more = without_model(options);
+  auto more = without_model(options);
   if (!more) return failed(more.error());
-  const auto clean = clean_without_model(options);
+  auto clean = clean_without_model(options);
   if (!clean) return failed(clean.error());
+  const bool seen = !options.field.empty();
+  if (seen) {
+    for (Samples* of : {&*samples, &*more, &*clean}) keep_seen(*of);
+  }
   Samples all = *samples;
   all.insert(all.end(), more->begin(), more->end());
   const auto weights = lab::fit_gate(all, *clean);
   const auto info = flowdlo::inspect_weights(options.weights);
   const std::string origin = fmt::format(
-      "Fitted on {} scenes of {} {} from {}, and {} and {} of thesis without a model;\n"
+      "Fitted on {} {}scenes of {} {} from {}, and {} and {} of thesis without a model;\n"
       "// weights {}...",
-      samples->size(), options.split, options.part, options.first, more->size(), clean->size(),
-      info ? info->sha256.substr(0, 16) : "unknown");
-  const std::string text = lab::constants_text(weights, origin);
+      samples->size(), seen ? "doubtful " : "", options.split, options.part, options.first,
+      more->size(), clean->size(), info ? info->sha256.substr(0, 16) : "unknown");
+  const std::string text =
+      lab::constants_text(weights, seen ? "fitted_to_field" : "fitted_to_mask", origin);
   if (options.constants.empty()) {
     fmt::print("{}", text);
   } else if (auto written = lab::write_text(options.constants, text); !written) {
     return failed(written.error());
   }
-  fmt::print(stderr, "{}", lab::report(*samples, weights));
+  fmt::print(stderr, "{}",
+             lab::report(
+                 *samples, [&](auto) -> const auto& { return weights; }));
   return 0;
 }
 
 int report(const Options& options) {
   const auto samples = with_model(options);
   if (!samples) return failed(samples.error());
-  fmt::print("{}", lab::report(*samples, flowdlo::gate::fitted_weights()));
+  fmt::print("{}", lab::report(*samples, flowdlo::gate::fitted_weights));
   return 0;
 }
 

@@ -38,13 +38,13 @@ struct Row {
   double sigma_mm = 0;  ///< mean of the nodes
 };
 
-Row row_of(const GateSample& sample, const gate::GateWeights& weights) {
+Row row_of(const GateSample& sample, const WeightsOf& weights_of) {
   const auto& candidates = sample.candidates;
   std::vector<double> published_cm;
   for (const auto& candidate : candidates) {
     published_cm.push_back(100 * eval::index_error_m(candidate.nodes, sample.truth));
   }
-  const gate::Choice choice = gate::choose_calibrated(candidates, weights);
+  const gate::Choice choice = gate::choose_calibrated(candidates, weights_of(candidates));
   Row row;
   row.sample = &sample;
   row.prior_cm = row.draw_cm = row.oracle_priors_cm = published_cm[0];
@@ -169,10 +169,10 @@ std::string calibration(const std::vector<Row>& rows) {
 
 }  // namespace
 
-std::string report(const std::vector<GateSample>& samples, const gate::GateWeights& weights) {
+std::string report(const std::vector<GateSample>& samples, const WeightsOf& weights_of) {
   std::map<std::string, std::vector<Row>> groups;
   for (const GateSample& sample : samples) {
-    const Row row = row_of(sample, weights);
+    const Row row = row_of(sample, weights_of);
     groups[" all"].push_back(row);
     groups[sample.easy ? " easy" : sample.hard ? " hard" : " middle"].push_back(row);
     groups[sample.scenario].push_back(row);

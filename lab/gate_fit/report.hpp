@@ -1,6 +1,8 @@
 // Report: what the calibrated gate makes of samples with truth, as Markdown.
 #pragma once
 
+#include <functional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -9,7 +11,10 @@
 
 namespace flowdlo::lab {
 
+/// The weights that decide on a frame with these candidates.
+using WeightsOf = std::function<const gate::GateWeights&(std::span<const gate::Candidate>)>;
+
 [[nodiscard]] std::string report(const std::vector<GateSample>& samples,
-                                 const gate::GateWeights& weights);
+                                 const WeightsOf& weights_of);
 
 }  // namespace flowdlo::lab

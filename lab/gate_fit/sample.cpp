@@ -43,6 +43,13 @@ std::optional<Drawn> draw(const Frame& frame, const estimator::Conditions& condi
 
 }  // namespace
 
+bool doubtful(const synth::SyntheticFrame& scene, weights::PriorKind kind, double rope_length_m) {
+  const Frame frame = scene.frame();
+  Timings timings;
+  const auto conditions = estimator::gather(frame, rope_length_m, kind, timings);
+  return conditions && !estimator::worth_reading(*conditions, frame).empty();
+}
+
 std::optional<GateSample> measure(const synth::SyntheticFrame& scene, flow::Sampler* sampler,
                                   field::Network* field, int draws, weights::PriorKind kind,
                                   double rope_length_m) {

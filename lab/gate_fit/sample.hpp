@@ -24,6 +24,10 @@ struct GateSample {
   std::vector<std::uint8_t> doubted;  ///< [candidates] 1: gate::one_rope doubts it; empty: unknown
 };
 
+/// Whether the mask leaves doubt, so that it is read again.
+[[nodiscard]] bool doubtful(const synth::SyntheticFrame& scene, weights::PriorKind kind,
+                            double rope_length_m);
+
 /// Nothing where the engine finds no path or the device fails. Priors alone where `sampler` is
 /// null, without a strand field where `field` is. `rope_length_m` 0: unknown.
 [[nodiscard]] std::optional<GateSample> measure(const synth::SyntheticFrame& scene,

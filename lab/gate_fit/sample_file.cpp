@@ -13,7 +13,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr int kFormat = 4;  // rises with what a sample holds
+constexpr int kFormat = 5;  // rises with what a sample holds
 
 /// Calls `field` with the name and value of each number of a candidate.
 template <class Candidate, class Field>
@@ -28,6 +28,13 @@ void each_number(Candidate& candidate, const Field& field) {
   field("reread", candidate.reread);
   field("votes", candidate.votes);
   field("odds", candidate.odds);
+  field("seen_odds", candidate.seen_odds);
+  field("axes_known", candidate.axes.known);
+  field("axes_followed", candidate.axes.followed);
+  field("axes_backed", candidate.axes.backed);
+  field("axes_twice", candidate.axes.twice);
+  field("tips_met", candidate.axes.tips_met);
+  field("tips_left", candidate.axes.tips_left);
   field("supported", candidate.supported);
   field("bridged", candidate.bridged);
   field("longest_gap", candidate.longest_gap);

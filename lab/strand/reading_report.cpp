@@ -16,7 +16,7 @@
 #include "estimator/conditions.hpp"
 #include "estimator/second_look.hpp"
 #include "eval/metrics.hpp"
-#include "field/axis_line.hpp"
+#include "field/axes.hpp"
 #include "field/channel.hpp"
 #include "field/strand_field.hpp"
 #include "path/strand_reading.hpp"
@@ -122,7 +122,7 @@ flowdlo::Result<Outcome> measure(const Options& options, std::uint64_t index,
   if (!seen) return seen.error();
   outcome.field_ms = ms_since(begin);
   begin = std::chrono::steady_clock::now();
-  const auto paths = flowdlo::path::trace_strands(frame, *seen);
+  const auto paths = flowdlo::path::trace_strands(frame, field::axes(*seen));
   std::vector<estimator::Hypothesis> of_field;
   if (paths) {
     auto lifted = estimator::lift_all(*paths, conditions->cloud, conditions->visible, frame,

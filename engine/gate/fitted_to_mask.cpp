@@ -272,6 +272,6 @@ constexpr GateWeights kFitted{
 
 }  // namespace
 
-const GateWeights& fitted_weights() { return kFitted; }
+const GateWeights& fitted_to_mask() { return kFitted; }
 
 }  // namespace flowdlo::gate

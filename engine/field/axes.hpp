@@ -1,0 +1,19 @@
+// Axes: the strands that a field shows, as lines of the frame.
+#pragma once
+
+#include <vector>
+
+#include "field/axis_line.hpp"
+#include "field/strand_field.hpp"
+
+namespace flowdlo::field {
+
+/// Pixels of the frame.
+struct Axes {
+  std::vector<AxisLine> lines;  ///< the clearest first; points less than a pixel of the field apart
+  float width_px = 0;           ///< of the rope
+};
+
+[[nodiscard]] Axes axes(const StrandField& seen);
+
+}  // namespace flowdlo::field
