@@ -87,6 +87,18 @@ const char* name_of(Doubt doubt) {
   return "unknown";
 }
 
+const char* name_of(LeftOut part) {
+  switch (part) {
+    case LeftOut::kModel:
+      return "model";
+    case LeftOut::kField:
+      return "strand_field";
+    case LeftOut::kReadings:
+      return "readings";
+  }
+  return "unknown";
+}
+
 Json one_rope_json(const OneRope& one) {
   Json doubts = Json::array();
   for (const Doubt doubt : one.doubts) doubts.push_back(name_of(doubt));
@@ -133,6 +145,8 @@ std::string estimate_json(const Estimate& estimate, const Provenance& provenance
   json["confidence"] = number(estimate.confidence);
   json["one_rope"] = one_rope_json(estimate.one_rope);
   json["readings"] = estimate.readings;
+  json["left_out"] = Json::array();
+  for (const LeftOut part : estimate.left_out) json["left_out"].push_back(name_of(part));
   json["mask_agreement"] = number(estimate.mask_agreement);
   json["prior_mask_agreement"] = number(estimate.prior_mask_agreement);
   json["draws"] = draws_json(estimate.draws);

@@ -83,6 +83,13 @@ void add_model_options(CLI::App& command, Config& config) {
   command.add_option("--threads", config.threads, "Of the CPU back end; 0: every core")
       ->capture_default_str()
       ->check(CLI::Range(0, 1024));
+  command
+      .add_option(
+          "--budget", config.budget_ms,
+          "Milliseconds that an estimate may take: what would end too late is left out, and "
+          "estimate.json says what; 0: no limit")
+      ->capture_default_str()
+      ->check(CLI::NonNegativeNumber);
   add_prior_options(command, config);
 }
 

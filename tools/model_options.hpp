@@ -7,8 +7,8 @@
 
 namespace flowdlo::tools {
 
-/// Adds --weights, --device, --steps, --draws, --seed, --threads, --prior, --gate and
-/// --rope-length. `config` holds the defaults, receives the values, and must outlive the command's
+/// Adds --weights, --device, --steps, --draws, --seed, --threads, --budget, --prior, --gate,
+/// --field, --field-weights and --rope-length. `config` holds the defaults, receives the values, and must outlive the command's
 /// parsing.
 void add_model_options(CLI::App& command, Config& config);
 

@@ -43,6 +43,10 @@ Result<void> check(const Config& config) {
     fault(fmt::format("Config.rope_length_m: expected metres, or 0 for unknown, got {}",
                       config.rope_length_m));
   }
+  if (!std::isfinite(config.budget_ms) || config.budget_ms < 0) {
+    fault(fmt::format("Config.budget_ms: expected milliseconds, or 0 for no limit, got {}",
+                      config.budget_ms));
+  }
   if (faults.empty()) return {};
   return Error{ErrorCode::kBadInput, faults};
 }

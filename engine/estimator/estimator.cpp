@@ -10,11 +10,14 @@
 #include <optional>
 #include <vector>
 
+#include "estimator/budget.hpp"
 #include "estimator/candidates.hpp"
 #include "estimator/conditions.hpp"
 #include "estimator/confidence.hpp"
 #include "estimator/config_check.hpp"
 #include "estimator/device_choice.hpp"
+#include "estimator/known_scene.hpp"
+#include "estimator/opening.hpp"
 #include "estimator/second_look.hpp"
 #include "estimator/stopwatch.hpp"
 #include "estimator/tensors.hpp"
@@ -29,62 +32,13 @@
 #include "guard/guarded.hpp"
 #include "prior/prior.hpp"
 #include "threads/aside.hpp"
+#include "threads/count.hpp"
 #include "threads/pool.hpp"
-#include "weights/field_weights.hpp"
 #include "weights/kept_file.hpp"
 #include "weights/weights.hpp"
 
 namespace flowdlo {
 namespace {
-
-/// A rope rarely covers more of an image than this; a denser mask makes the sampler grow once.
-constexpr int kCloudShare = 4;
-
-/// With K and D as the quality has them.
-Config resolved(const Config& config, const weights::Metadata& metadata) {
-  Config result = config;
-  if (config.quality == Quality::kFull) return result;
-  const Config full;
-  result.euler_steps = metadata.fast_steps > 0 ? metadata.fast_steps : full.euler_steps;
-  result.draws = metadata.fast_draws > 0 ? metadata.fast_draws : full.draws;
-  return result;
-}
-
-flow::SamplerConfig sampler_config(const Config& config) {
-  const int pixels = config.max_width * config.max_height;
-  return {.draws = config.draws,
-          .steps = config.euler_steps,
-          .seed = config.seed,
-          .capacity = {.cloud_points = pixels / kCloudShare,
-                       .field_texels = pixels / 4,
-                       .image_pixels = pixels}};
-}
-
-/// The weights as long as `loaded` lives, then made anew from their file: for a frame larger than
-/// planned and for a lost device.
-flow::WeightsSource source_of(const weights::Loaded& loaded) {
-  return [file = loaded.file, first = std::weak_ptr(loaded.weights)] {
-    auto weights = first.lock();
-    return weights ? weights : std::make_shared<const weights::Weights>(file->decoded());
-  };
-}
-
-/// The network that sees strands, on one thread of the CPU: it works beside the model. None where
-/// it is off or no weights are to be had.
-Result<std::optional<field::Network>> open_field(const Config& config,
-                                                 const std::filesystem::path& weights) {
-  if (config.field == FieldChoice::kOff) return std::optional<field::Network>();
-  const auto file =
-      config.field_weights.empty() ? estimator::field_beside(weights) : config.field_weights;
-  if (file.empty()) return std::optional<field::Network>();
-  auto loaded = weights::load_field(file);
-  if (!loaded) return loaded.error();
-  const auto cpu = estimator::cpu_back_end(1);
-  auto network = field::Network::create(
-      std::make_shared<const weights::FieldWeights>(*std::move(loaded)), cpu.make_program);
-  if (!network) return network.error();
-  return std::optional(*std::move(network));
-}
 
 /// To the system, what making an estimator used once: a driver's compiler and the decoded weights
 /// leave 8 to 15 MB of free pieces between what stays.
@@ -174,15 +128,22 @@ struct FLOWDLO_HIDDEN Estimator::Impl {
   flow::Sampler sampler;
   std::optional<field::Network> field;
   threads::Pool pool{config.threads};  // for what runs beside the model
+  estimator::ReadingCosts reading_costs{};
+  estimator::Cost model_cost{0};  // mask field and all
+  estimator::Cost gate_cost{0};
   pid_t process = ::getpid();  // in a process forked from this one threads and device are missing
 
   static Result<std::unique_ptr<Impl>> create(const Config& config);
+  void learn_costs();
   Result<Estimate> estimate(const Frame& frame, Tensors* tensors);
   Result<flow::Prediction> sample(const flow::SampleInput& input);
   [[nodiscard]] weights::PriorKind prior_kind() const;
   [[nodiscard]] bool calibrated() const;
   [[nodiscard]] std::vector<path::Reading> readings(const estimator::Conditions& conditions,
                                                     const Frame& frame) const;
+  [[nodiscard]] estimator::ReadingLimits limits(const estimator::Budget& budget,
+                                                const Timings& timings);
+  [[nodiscard]] double sampling_ms(const estimator::Rereading& rereading) const;
   [[nodiscard]] std::vector<int> assign(const std::vector<estimator::Hypothesis>& hypotheses) const;
 };
 
@@ -198,15 +159,25 @@ Result<std::unique_ptr<Estimator::Impl>> Estimator::Impl::create(const Config& w
   auto back_end = choice.get();
   if (!loaded) return loaded.error();
   const weights::Metadata metadata = loaded->weights->metadata;
-  const Config config = resolved(wanted, metadata);
+  const Config config = estimator::resolved(wanted, metadata);
   if (!back_end) return back_end.error();
-  const auto weights = source_of(*loaded);
-  auto sampler = flow::Sampler::create(weights, back_end->make_program, sampler_config(config));
+  const auto weights = estimator::source_of(*loaded);
+  auto sampler =
+      flow::Sampler::create(weights, back_end->make_program, estimator::sampler_config(config));
   if (!sampler) return sampler.error();
-  auto field = open_field(config, *file);
+  auto field = estimator::open_field(config, *file);
   if (!field) return field.error();
-  return std::unique_ptr<Impl>(  // an aggregate, which Clang 14 makes by braces only
+  auto impl = std::unique_ptr<Impl>(  // an aggregate, which Clang 14 makes by braces only
       new Impl{config, metadata, weights, back_end->name, *std::move(sampler), *std::move(field)});
+  if (config.budget_ms > 0) impl->learn_costs();
+  return impl;
+}
+
+/// What the model and the gate take is known before the first frame comes.
+void Estimator::Impl::learn_costs() {
+  const estimator::KnownScene scene;
+  Tensors tensors;  // nothing is left out where they are asked for
+  (void)estimate(scene.frame(), &tensors);
 }
 
 /// The model's predictions. Where the device was left to us, a lost one is replaced by the CPU.
@@ -215,7 +186,8 @@ Result<flow::Prediction> Estimator::Impl::sample(const flow::SampleInput& input)
   if (prediction || config.device != "auto" || device == "cpu") return prediction;
   if (prediction.error().code == ErrorCode::kOutOfMemory) return prediction;  // the host's
   const auto cpu = estimator::cpu_back_end(config.threads);
-  auto replacement = flow::Sampler::create(weights, cpu.make_program, sampler_config(config));
+  auto replacement =
+      flow::Sampler::create(weights, cpu.make_program, estimator::sampler_config(config));
   if (!replacement) return prediction;
   sampler = *std::move(replacement);
   device = cpu.name;
@@ -255,6 +227,20 @@ std::vector<path::Reading> Estimator::Impl::readings(const estimator::Conditions
   return estimator::worth_reading(conditions, frame);
 }
 
+/// Of a frame whose first reading took as long as `timings` say.
+estimator::ReadingLimits Estimator::Impl::limits(const estimator::Budget& budget,
+                                                 const Timings& timings) {
+  if (!budget.bounded()) return {};
+  return {&budget, &reading_costs, timings.path_ms + timings.prior_ms, gate_cost.of(1)};
+}
+
+/// What the model, and all that has to follow, will take. Readings come first where they have no
+/// thread of their own: they change more estimates than the model does.
+double Estimator::Impl::sampling_ms(const estimator::Rereading& rereading) const {
+  const double alone_ms = threads::count(config.threads) > 1 ? 0 : rereading.expected_ms();
+  return model_cost.of(1) + gate_cost.of(1) + alone_ms;
+}
+
 /// [draws] the hypothesis that conditions each.
 std::vector<int> Estimator::Impl::assign(
     const std::vector<estimator::Hypothesis>& hypotheses) const {
@@ -266,6 +252,7 @@ std::vector<int> Estimator::Impl::assign(
 
 Result<Estimate> Estimator::Impl::estimate(const Frame& frame, Tensors* tensors) {
   if (auto valid = validate(frame); !valid) return valid.error();
+  const estimator::Budget budget(config.budget_ms);
   Timings timings;
   estimator::Stopwatch total;
   const auto conditions =
@@ -273,10 +260,12 @@ Result<Estimate> Estimator::Impl::estimate(const Frame& frame, Tensors* tensors)
   estimator::Stopwatch stage;
   if (!conditions) return conditions.error();
   estimator::Rereading rereading(pool, readings(*conditions, frame), field ? &*field : nullptr,
-                                 *conditions, frame, config.rope_length_m, prior_kind());
+                                 *conditions, frame, config.rope_length_m, prior_kind(),
+                                 limits(budget, timings));
 
   const auto& hypotheses = conditions->hypotheses;
-  const auto assigned = assign(hypotheses);
+  const bool sampled = tensors != nullptr || budget.leaves(sampling_ms(rereading));
+  const auto assigned = sampled ? assign(hypotheses) : std::vector<int>{};
   std::vector<prior::Prior> draw_priors;
   std::vector<Centerline> draw_prior_nodes;
   for (const int hypothesis : assigned) {
@@ -285,17 +274,22 @@ Result<Estimate> Estimator::Impl::estimate(const Frame& frame, Tensors* tensors)
   }
   stage.lap(timings.prior_ms);
 
-  const auto mask_field = evidence::mask_field(frame);
+  evidence::MaskField mask_field;
+  if (sampled) mask_field = evidence::mask_field(frame);
   stage.lap(timings.mask_field_ms);
 
-  const auto prediction = sample({.frame = frame,  // Eq. (3.26)-(3.29)
-                                  .cloud = conditions->cloud,
-                                  .field = mask_field,
-                                  .draw_priors = draw_priors,
-                                  .visible = &conditions->visible});
-  if (!prediction) return prediction.error();
-  timings.device_ms = sampler.stage_times_ms();
+  Result<flow::Prediction> prediction = flow::Prediction{};
+  if (sampled) {
+    prediction = sample({.frame = frame,  // Eq. (3.26)-(3.29)
+                         .cloud = conditions->cloud,
+                         .field = mask_field,
+                         .draw_priors = draw_priors,
+                         .visible = &conditions->visible});
+    if (!prediction) return prediction.error();
+    timings.device_ms = sampler.stage_times_ms();
+  }
   stage.lap(timings.model_ms);
+  if (sampled) model_cost.saw(timings.mask_field_ms + timings.model_ms, 1);
   const estimator::SecondLook look = rereading.finish();
   timings.readings_ms = rereading.duration_ms();
   stage.skip();  // readings_ms has it
@@ -314,7 +308,11 @@ Result<Estimate> Estimator::Impl::estimate(const Frame& frame, Tensors* tensors)
   estimate.confidence = gate::doubted(estimate.confidence, estimate.one_rope);
   estimate.readings = look.readings;
   estimate.calibrated = calibrated();
+  if (!sampled) estimate.left_out.push_back(LeftOut::kModel);
+  if (look.field_left_out) estimate.left_out.push_back(LeftOut::kField);
+  if (look.readings_left_out) estimate.left_out.push_back(LeftOut::kReadings);
   stage.lap(timings.gate_ms);
+  gate_cost.saw(timings.gate_ms, 1);
   total.lap(timings.total_ms);
   estimate.timings = std::move(timings);
 

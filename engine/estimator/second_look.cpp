@@ -3,10 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <new>
+#include <numeric>
 #include <utility>
 
 #include "estimator/confidence.hpp"
+#include "field/axes.hpp"
 #include "field/strand_field.hpp"
 #include "gate/one_rope.hpp"
 #include "gate/tube_score.hpp"
@@ -21,6 +24,12 @@ namespace {
 constexpr std::size_t kOfEach = 2;  // hypotheses of a further reading
 constexpr double kSamePlace = 2;    // rope radii between the mean nodes of one and the same
 constexpr double kOddsScore = 1;    // score that makes a hypothesis e times as likely
+
+// Expected before any reading was timed, in doubt too much: what the slowest reading of the mask
+// takes for each millisecond of the first, and the field for each pixel, which is twice the 4 us of
+// one core of a Sapphire Rapids.
+constexpr double kFirstReadings = 2;
+constexpr double kFieldPixel_ms = 0.008;
 
 using Reading = std::vector<Hypothesis>;  // what one reading brought forth, best first
 
@@ -42,12 +51,14 @@ Reading read_by(const Trace& trace, const Conditions& conditions, const Frame& f
   return *std::move(reading);
 }
 
-/// The paths along the axes that the network sees.
+/// The axes that the network sees, and the paths along them.
 Result<path::Traversals> trace_seen(field::Network& network, const Frame& frame,
-                                    float rope_width_px, const path::TraceConfig& config) {
+                                    float rope_width_px, const path::TraceConfig& config,
+                                    std::optional<field::Axes>& axes) {
   const auto seen = field::see(frame, rope_width_px, network);
   if (!seen) return seen.error();
-  return path::trace_strands(frame, *seen, config);
+  axes = field::axes(*seen);
+  return path::trace_strands(frame, *axes, config);
 }
 
 bool same_place(const Hypothesis& a, const Hypothesis& b, double radius_m) {
@@ -76,6 +87,19 @@ std::vector<Hypothesis> pooled(const std::vector<Reading>& readings, double radi
   return pool;
 }
 
+/// [0, 1] how likely the reading says that the rope runs where the hypothesis does.
+double odds_of(const Hypothesis& hypothesis, const Reading& reading, double radius_m) {
+  const double best = reading.front().score;
+  double sum = 0;
+  double here = 0;
+  for (const Hypothesis& other : reading) {
+    const double share = std::exp((other.score - best) / kOddsScore);
+    sum += share;
+    here += same_place(hypothesis, other, radius_m) ? share : 0;
+  }
+  return here / sum;
+}
+
 /// Lets each reading say how likely it holds each place.
 void count_votes(const std::vector<Reading>& readings, double radius_m,
                  std::vector<Hypothesis>& pool) {
@@ -84,18 +108,16 @@ void count_votes(const std::vector<Reading>& readings, double radius_m,
     hypothesis.votes = 0;
     hypothesis.odds = 0;
     for (const Reading& reading : readings) {
-      const double best = reading.front().score;
-      double sum = 0;
-      double here = 0;
-      for (std::size_t i = 0; i < reading.size(); ++i) {
-        const double share = std::exp((reading[i].score - best) / kOddsScore);
-        const bool same = same_place(hypothesis, reading[i], radius_m);
-        sum += share;
-        here += same ? share : 0;
-        if (i == 0 && same) hypothesis.votes += each;
-      }
-      hypothesis.odds += each * static_cast<float>(here / sum);
+      if (same_place(hypothesis, reading.front(), radius_m)) hypothesis.votes += each;
+      hypothesis.odds += each * static_cast<float>(odds_of(hypothesis, reading, radius_m));
     }
+  }
+}
+
+/// Lets the reading of the strand field say the same.
+void count_seen_odds(const Reading& reading, double radius_m, std::vector<Hypothesis>& pool) {
+  for (Hypothesis& hypothesis : pool) {
+    hypothesis.seen_odds = static_cast<float>(odds_of(hypothesis, reading, radius_m));
   }
 }
 
@@ -103,6 +125,14 @@ void count_votes(const std::vector<Reading>& readings, double radius_m,
 bool shaped_like_a_rope(const Hypothesis& hypothesis, const Frame& frame, float width_px) {
   const auto doubts = gate::one_rope(hypothesis.prior.nodes, frame, width_px).doubts;
   return std::find(doubts.begin(), doubts.end(), Doubt::kNoRope) == doubts.end();
+}
+
+/// Pixels of the mask, magnified as the network sees a rope of that width.
+double magnified_px(const Frame& frame, float rope_width_px) {
+  const auto masked = std::count_if(frame.mask.begin(), frame.mask.end(),
+                                    [](std::uint8_t value) { return value > 127; });
+  const float scale = std::min(field::kRope_px / rope_width_px, field::kMostScale);
+  return static_cast<double>(masked) * static_cast<double>(scale * scale);
 }
 
 }  // namespace
@@ -118,26 +148,56 @@ std::vector<path::Reading> worth_reading(const Conditions& conditions, const Fra
   return path::further_readings(frame, paths.rope_width_px);
 }
 
+ReadingCosts::ReadingCosts()
+    : of_mask_(static_cast<std::size_t>(path::Reading::kMeasured) + 1, Cost(kFirstReadings)),
+      of_field_(kFieldPixel_ms) {}
+
 Rereading::Rereading(threads::Pool& pool, std::vector<path::Reading> kinds, field::Network* field,
                      const Conditions& conditions, const Frame& frame, double rope_length_m,
-                     weights::PriorKind prior_kind)
+                     weights::PriorKind prior_kind, const ReadingLimits& limits)
     : kinds_(std::move(kinds)),
       field_(kinds_.empty() ? nullptr : field),
+      limits_(limits),
       conditions_(conditions),
       frame_(frame),
       rope_length_m_(rope_length_m),
       prior_kind_(prior_kind),
-      reads_(kinds_.size() + (field_ != nullptr ? 1 : 0)),
+      rope_px_(field_ != nullptr && limits.budget != nullptr
+                   ? magnified_px(frame, conditions.paths.rope_width_px)
+                   : 0),
+      reads_(planned()),
       beside_(pool, static_cast<int>(reads_.size()),
               [this](int which) { read(static_cast<std::size_t>(which)); }) {}
 
+std::vector<Rereading::Read> Rereading::planned() const {
+  const std::size_t fields = field_ != nullptr ? 1 : 0;
+  std::vector<Read> reads(kinds_.size() + fields);
+  if (limits_.budget == nullptr) return reads;
+  if (field_ != nullptr) reads.front().expected_ms = limits_.costs->of_field().of(rope_px_);
+  for (std::size_t i = 0; i < kinds_.size(); ++i) {
+    reads[fields + i].expected_ms = limits_.costs->of(kinds_[i]).of(limits_.first_ms);
+  }
+  return reads;
+}
+
+double Rereading::expected_ms() const {
+  return std::accumulate(reads_.begin(), reads_.end(), 0.0,
+                         [](double sum, const Read& read) { return sum + read.expected_ms; });
+}
+
 void Rereading::read(std::size_t which) {
   Read& result = reads_[which];
+  if (limits_.budget != nullptr && !limits_.budget->leaves(result.expected_ms + limits_.after_ms)) {
+    result.left_out = true;
+    return;
+  }
   result.begin = Clock::now();
   const float width_px = conditions_.paths.rope_width_px;
   const path::TraceConfig config{.rope_length_m = rope_length_m_};
   const auto trace = [&] {
-    if (field_ != nullptr && which == 0) return trace_seen(*field_, frame_, width_px, config);
+    if (field_ != nullptr && which == 0) {
+      return trace_seen(*field_, frame_, width_px, config, axes_);
+    }
     const std::size_t kind = which - (field_ != nullptr ? 1 : 0);
     return path::trace_as(kinds_[kind], frame_, width_px, config);
   };
@@ -145,26 +205,50 @@ void Rereading::read(std::size_t which) {
   result.end = Clock::now();
 }
 
+void Rereading::learn_costs() const {
+  if (limits_.budget == nullptr) return;
+  const std::size_t fields = field_ != nullptr ? 1 : 0;
+  for (std::size_t i = 0; i < reads_.size(); ++i) {
+    if (reads_[i].left_out) continue;
+    if (i < fields) {
+      limits_.costs->of_field().saw(reads_[i].took_ms(), rope_px_);
+    } else {
+      limits_.costs->of(kinds_[i - fields]).saw(reads_[i].took_ms(), limits_.first_ms);
+    }
+  }
+}
+
 SecondLook Rereading::finish() {
   beside_.finish();
+  learn_costs();
+  const bool seen = field_ != nullptr && !reads_.front().hypotheses.empty();
   std::vector<Reading> readings{conditions_.hypotheses};
-  for (Read& read : reads_) {
-    if (!read.hypotheses.empty()) readings.push_back(std::move(read.hypotheses));
+  SecondLook look;
+  for (std::size_t i = 0; i < reads_.size(); ++i) {
+    const bool of_field = field_ != nullptr && i == 0;
+    (of_field ? look.field_left_out : look.readings_left_out) |= reads_[i].left_out;
+    if (reads_[i].hypotheses.empty()) continue;
+    readings.push_back(std::move(reads_[i].hypotheses));
   }
   const auto radius_m = static_cast<double>(gate::tube_radius_m(
       readings.front().front().prior.nodes, frame_.intrinsics, conditions_.paths.rope_width_px));
-  SecondLook look{static_cast<int>(readings.size()), pooled(readings, radius_m)};
+  look.readings = static_cast<int>(readings.size());
+  look.hypotheses = pooled(readings, radius_m);
+  look.axes = std::move(axes_);
   count_votes(readings, radius_m, look.hypotheses);
+  if (seen) count_seen_odds(readings[1], radius_m, look.hypotheses);
   return look;
 }
 
 double Rereading::duration_ms() const {
-  if (reads_.empty()) return 0;
-  const auto first = std::min_element(
-      reads_.begin(), reads_.end(), [](const Read& a, const Read& b) { return a.begin < b.begin; });
-  const auto last = std::max_element(reads_.begin(), reads_.end(),
-                                     [](const Read& a, const Read& b) { return a.end < b.end; });
-  return std::chrono::duration<double, std::milli>(last->end - first->begin).count();
+  std::optional<Clock::time_point> begin;
+  Clock::time_point end;
+  for (const Read& read : reads_) {
+    if (read.left_out) continue;
+    begin = begin ? std::min(*begin, read.begin) : read.begin;
+    end = std::max(end, read.end);
+  }
+  return begin ? std::chrono::duration<double, std::milli>(end - *begin).count() : 0;
 }
 
 }  // namespace flowdlo::estimator

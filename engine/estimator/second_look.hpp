@@ -3,10 +3,13 @@
 #pragma once
 
 #include <chrono>
+#include <cstddef>
 #include <optional>
 #include <vector>
 
+#include "estimator/budget.hpp"
 #include "estimator/conditions.hpp"
+#include "field/axes.hpp"
 #include "field/network.hpp"
 #include "flowdlo/frame.hpp"
 #include "path/readings.hpp"
@@ -24,10 +27,36 @@ inline constexpr float kClear = 0.7F;
 [[nodiscard]] std::vector<path::Reading> worth_reading(const Conditions& conditions,
                                                        const Frame& frame);
 
+/// What a further reading takes. From frame to frame: what one frame took is what the next expects.
+class ReadingCosts {
+ public:
+  ReadingCosts();
+
+  /// Of the mask, for each millisecond that the first reading took.
+  Cost& of(path::Reading reading) { return of_mask_[static_cast<std::size_t>(reading)]; }
+  /// Of the strand field, for each pixel of the rope, magnified as the network sees it.
+  Cost& of_field() { return of_field_; }
+
+ private:
+  std::vector<Cost> of_mask_;
+  Cost of_field_;
+};
+
+/// Until when further readings may begin.
+struct ReadingLimits {
+  const Budget* budget = nullptr;  ///< null: at any time
+  ReadingCosts* costs = nullptr;   ///< null where `budget` is
+  double first_ms = 0;             ///< what the first reading took
+  double after_ms = 0;             ///< what has to follow all readings
+};
+
 struct SecondLook {
   int readings = 1;                      ///< of the mask, the first among them
   std::vector<Hypothesis> hypotheses{};  ///< those of the first reading as they were, best first,
                                          ///< then others that run elsewhere, best first
+  std::optional<field::Axes> axes{};     ///< what the strand field shows, where it was asked
+  bool field_left_out = false;           ///< for want of time
+  bool readings_left_out = false;        ///< some of the mask, for want of time
 };
 
 /// Further readings under way on the threads of a pool. What it is made of has to outlive it.
@@ -37,7 +66,10 @@ class Rereading {
   /// there are any other; null: none.
   Rereading(threads::Pool& pool, std::vector<path::Reading> kinds, field::Network* field,
             const Conditions& conditions, const Frame& frame, double rope_length_m,
-            weights::PriorKind prior_kind);
+            weights::PriorKind prior_kind, const ReadingLimits& limits = {});
+
+  /// What all readings will take on one thread; 0 without limits.
+  [[nodiscard]] double expected_ms() const;
 
   /// What all readings hold. Those that fail are left out; without any the hypotheses are the
   /// conditions'. Once.
@@ -54,18 +86,29 @@ class Rereading {
     std::vector<Hypothesis> hypotheses;
     Clock::time_point begin;
     Clock::time_point end;
+    double expected_ms = 0;
+    bool left_out = false;  // it would have ended too late
+
+    [[nodiscard]] double took_ms() const {
+      return std::chrono::duration<double, std::milli>(end - begin).count();
+    }
   };
 
+  [[nodiscard]] std::vector<Read> planned() const;
   void read(std::size_t which);
+  void learn_costs() const;
 
   const std::vector<path::Reading> kinds_;
   field::Network* const field_;  // read first, for it takes longest
+  const ReadingLimits limits_;
   const Conditions& conditions_;
   const Frame frame_;
   const double rope_length_m_;
   const weights::PriorKind prior_kind_;
+  double rope_px_ = 0;       // of the rope, magnified as the network sees it; 0 without limits
   std::vector<Read> reads_;  // one a reading
-  threads::Beside beside_;   // last: it ends first
+  std::optional<field::Axes> axes_;
+  threads::Beside beside_;  // last: it ends first
 };
 
 }  // namespace flowdlo::estimator

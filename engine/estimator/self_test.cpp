@@ -4,50 +4,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "estimator/known_scene.hpp"
 #include "geometry/camera.hpp"
 #include "reference/program.hpp"
 
 namespace flowdlo::estimator {
 namespace {
 
-constexpr int kWidth = 160;
-constexpr int kHeight = 120;
 constexpr float kTolerance_m = 1e-4F;
-
-/// A wave of a rope across a small image: enough pixels that farthest-point sampling has to choose.
-struct KnownScene {
-  std::vector<float> depth_m = std::vector<float>(kWidth * kHeight, 0.0F);
-  std::vector<std::uint8_t> mask = std::vector<std::uint8_t>(kWidth * kHeight, 0);
-  Intrinsics camera{.fx = 150.0F, .fy = 150.0F, .cx = 79.5F, .cy = 59.5F};
-  prior::Prior prior;
-
-  KnownScene() {
-    constexpr float kDepth_m = 0.4F;
-    for (int u = 10; u < 150; ++u) {
-      const int centre = wave(static_cast<float>(u));
-      for (int v = centre - 3; v <= centre + 3; ++v) {
-        const auto pixel = static_cast<std::size_t>(v) * kWidth + static_cast<std::size_t>(u);
-        mask[pixel] = 255;
-        depth_m[pixel] = kDepth_m + 0.0005F * static_cast<float>(u % 7);
-      }
-    }
-    for (std::size_t node = 0; node < kNodes; ++node) {
-      const float u = 10.0F + 139.0F * static_cast<float>(node) / (kNodes - 1);
-      prior.nodes[node] = geometry::unproject(camera, u, static_cast<float>(wave(u)), kDepth_m);
-      prior.support[node] = node % 5 == 0 ? 0 : 1;
-    }
-  }
-
-  [[nodiscard]] Frame frame() const { return {kWidth, kHeight, camera, depth_m, mask, {}}; }
-
- private:
-  static int wave(float u) {
-    return static_cast<int>(60.0F +
-                            35.0F * std::sin(u / 140.0F * 3.0F * std::numbers::pi_v<float>));
-  }
-};
 
 Result<flow::Prediction> predict(const flow::ProgramFactory& factory, const KnownScene& scene) {
   weights::Variant variant;
@@ -65,7 +30,7 @@ Result<flow::Prediction> predict(const flow::ProgramFactory& factory, const Know
        .seed = 1,
        .capacity = {.cloud_points = static_cast<int>(cloud.points_cam.size()),
                     .field_texels = field.width * field.height,
-                    .image_pixels = kWidth * kHeight}});
+                    .image_pixels = frame.width * frame.height}});
   if (!sampler) return sampler.error();
   return sampler->sample(
       {.frame = frame, .cloud = cloud, .field = field, .draw_priors = {&scene.prior, 1}});

@@ -55,6 +55,13 @@ struct Config {
   double rope_length_m = 0;  ///< of the whole rope, where known; 0: unknown. Helps at crossings.
   int threads = 0;           ///< of the CPU back end; 0: one for each core
 
+  /// Milliseconds that an estimate may take; 0: as long as it does. Of the model, the strand field
+  /// and further readings of the mask, what would end too late is left out, going by what earlier
+  /// frames took; Estimate::left_out says what. The first reading of the mask is never left out: it
+  /// takes 5 to 30 ms, on masks that are no rope up to a second. With a limit an estimate depends
+  /// on how busy the machine is.
+  double budget_ms = 0;
+
   /// Largest frame for which memory is set aside. A larger one still works: its first call
   /// allocates again.
   int max_width = 1280;

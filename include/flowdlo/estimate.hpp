@@ -52,6 +52,13 @@ struct OneRope {
   std::vector<Doubt> doubts;  ///< empty: none of this lowers `confidence`
 };
 
+/// What Config::budget_ms left no time for.
+enum class LeftOut {
+  kModel,     ///< its draws: the estimate is a prior
+  kField,     ///< the strand field, though there was doubt
+  kReadings,  ///< some further readings of the mask, though there was doubt
+};
+
 /// Milliseconds of each stage of one call. With Config::threads = 1 the stages sum to total_ms;
 /// with more threads they exceed it by what of readings_ms ran beside mask_field_ms and model_ms.
 struct Timings {
@@ -84,6 +91,7 @@ struct Estimate {
   /// A doubt about the mask (`one_rope`) leaves at most 0.25 of it.
   float confidence = 0;
   OneRope one_rope;
+  std::vector<LeftOut> left_out;          ///< for want of time; empty without Config::budget_ms
   float mask_agreement = 0;               ///< S_M of `nodes`, Eq. (3.32), in [0, 1]
   float prior_mask_agreement = 0;         ///< S_M of the prior
   std::vector<DrawReport> draws;          ///< one for each draw

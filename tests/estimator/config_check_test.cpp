@@ -51,6 +51,8 @@ TEST(ConfigCheck, NumbersOutOfRangeAreRefused) {
        {-0.1, std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
     EXPECT_THAT(fault_of([&](Config& c) { c.rope_length_m = length_m; }),
                 HasSubstr("Config.rope_length_m"));
+    EXPECT_THAT(fault_of([&](Config& c) { c.budget_ms = length_m; }),
+                HasSubstr("Config.budget_ms"));
   }
 }
 

@@ -1,0 +1,58 @@
+#include "estimator/opening.hpp"
+
+#include <memory>
+#include <utility>
+
+#include "estimator/device_choice.hpp"
+#include "estimator/weights_location.hpp"
+#include "weights/field_weights.hpp"
+
+namespace flowdlo::estimator {
+namespace {
+
+/// A rope rarely covers more of an image than this; a denser mask makes the sampler grow once.
+constexpr int kCloudShare = 4;
+
+}  // namespace
+
+Config resolved(const Config& config, const weights::Metadata& metadata) {
+  Config result = config;
+  if (config.quality == Quality::kFull) return result;
+  const Config full;
+  result.euler_steps = metadata.fast_steps > 0 ? metadata.fast_steps : full.euler_steps;
+  result.draws = metadata.fast_draws > 0 ? metadata.fast_draws : full.draws;
+  return result;
+}
+
+flow::SamplerConfig sampler_config(const Config& config) {
+  const int pixels = config.max_width * config.max_height;
+  return {.draws = config.draws,
+          .steps = config.euler_steps,
+          .seed = config.seed,
+          .capacity = {.cloud_points = pixels / kCloudShare,
+                       .field_texels = pixels / 4,
+                       .image_pixels = pixels}};
+}
+
+flow::WeightsSource source_of(const weights::Loaded& loaded) {
+  return [file = loaded.file, first = std::weak_ptr(loaded.weights)] {
+    auto weights = first.lock();
+    return weights ? weights : std::make_shared<const weights::Weights>(file->decoded());
+  };
+}
+
+Result<std::optional<field::Network>> open_field(const Config& config,
+                                                 const std::filesystem::path& weights) {
+  if (config.field == FieldChoice::kOff) return std::optional<field::Network>();
+  const auto file = config.field_weights.empty() ? field_beside(weights) : config.field_weights;
+  if (file.empty()) return std::optional<field::Network>();
+  auto loaded = weights::load_field(file);
+  if (!loaded) return loaded.error();
+  const auto cpu = cpu_back_end(1);
+  auto network = field::Network::create(
+      std::make_shared<const weights::FieldWeights>(*std::move(loaded)), cpu.make_program);
+  if (!network) return network.error();
+  return std::optional(*std::move(network));
+}
+
+}  // namespace flowdlo::estimator

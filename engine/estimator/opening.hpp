@@ -1,0 +1,31 @@
+// Opening: what an estimator is made of, from its configuration and the weights.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+
+#include "field/network.hpp"
+#include "flow/sampler.hpp"
+#include "flowdlo/config.hpp"
+#include "flowdlo/result.hpp"
+#include "weights/kept_file.hpp"
+#include "weights/weights.hpp"
+
+namespace flowdlo::estimator {
+
+/// With K and D as the quality has them.
+[[nodiscard]] Config resolved(const Config& config, const weights::Metadata& metadata);
+
+[[nodiscard]] flow::SamplerConfig sampler_config(const Config& config);
+
+/// The weights as long as `loaded` lives, then made anew from their file: for a frame larger than
+/// planned and for a lost device.
+[[nodiscard]] flow::WeightsSource source_of(const weights::Loaded& loaded);
+
+/// The network that sees strands, on one thread of the CPU: it works beside the model. None where
+/// it is off or no weights are to be had beside those of the model, `weights`. Fails as reading
+/// them does.
+[[nodiscard]] Result<std::optional<field::Network>> open_field(
+    const Config& config, const std::filesystem::path& weights);
+
+}  // namespace flowdlo::estimator
