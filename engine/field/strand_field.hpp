@@ -19,7 +19,7 @@ struct StrandField {
 [[nodiscard]] float width_px(const StrandField& seen);
 
 /// A rope is at least so wide in the region for the field to part strands: narrower than believed.
-inline constexpr float kNarrow = 0.7F;
+inline constexpr float kNarrow = 0.82F;
 
 /// Pixels of a region, 140 MB of them, and blocks of it near the mask, 0.4 s of one core, that are
 /// looked at. A region beyond that is magnified less: down to a rope of kLeastWidth of its width.
