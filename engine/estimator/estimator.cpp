@@ -1,6 +1,7 @@
 // Estimator: the one file that sees every room. Chapter 3 of the thesis, Figure 3.1.
 #include "flowdlo/estimator.hpp"
 
+#include <fmt/format.h>
 #include <unistd.h>
 #ifdef __GLIBC__
 #include <malloc.h>
@@ -15,6 +16,8 @@
 #include "estimator/confidence.hpp"
 #include "estimator/config_check.hpp"
 #include "estimator/device_choice.hpp"
+#include "estimator/rope_crossings.hpp"
+#include "estimator/rope_views.hpp"
 #include "estimator/second_look.hpp"
 #include "estimator/stopwatch.hpp"
 #include "estimator/tensors.hpp"
@@ -147,6 +150,7 @@ Estimate conclude(const Returned& returned, const std::vector<estimator::Hypothe
   estimate.nodes =
       returned.draw >= 0 ? prediction.draws[static_cast<std::size_t>(returned.draw)] : prior.nodes;
   estimate.support = prior.support;
+  estimate.closed = hypotheses[returned.hypothesis].evidence.closed;
   estimate.sigma_m = returned.sigma_m;
   estimate.mask_agreement = mask.agreement(estimate.nodes, frame.intrinsics);
   estimate.prior_mask_agreement = verdict.prior_agreement;
@@ -178,6 +182,7 @@ struct FLOWDLO_HIDDEN Estimator::Impl {
 
   static Result<std::unique_ptr<Impl>> create(const Config& config);
   Result<Estimate> estimate(const Frame& frame, Tensors* tensors);
+  Result<Ropes> estimate_ropes(const Frame& frame);
   Result<flow::Prediction> sample(const flow::SampleInput& input);
   [[nodiscard]] weights::PriorKind prior_kind() const;
   [[nodiscard]] bool calibrated() const;
@@ -330,6 +335,40 @@ Result<Estimate> Estimator::Impl::estimate(const Frame& frame, Tensors* tensors)
   return estimate;
 }
 
+/// Each rope goes the way of one, in a view of the frame that is its own.
+Result<Ropes> Estimator::Impl::estimate_ropes(const Frame& frame) {
+  if (auto valid = validate(frame); !valid) return valid.error();
+  estimator::Stopwatch total;
+  estimator::Stopwatch stage;
+  Ropes result;
+  if (config.ropes == 1 && frame.instances.empty()) {
+    auto rope = estimate(frame, nullptr);
+    if (!rope) return rope.error();
+    result.ropes.push_back(*std::move(rope));
+    result.instances = estimator::one_instance(frame);
+  } else {
+    const auto parted = estimator::part_ropes(frame, config.ropes);
+    if (!parted) return parted.error();
+    stage.lap(result.parting_ms);
+    const std::size_t count = parted->paths.ropes.size();
+    for (std::size_t i = 0; i < count; ++i) {
+      const estimator::RopeView view(*parted, i, frame);
+      auto rope = estimate(view.frame(), nullptr);
+      if (!rope) {
+        return Error{rope.error().code,
+                     fmt::format("rope {} of {}: {}", i + 1, count, rope.error().message)};
+      }
+      rope->closed = parted->paths.ropes[i].closed;
+      rope->confidence *= estimator::told_apart(parted->paths.lead[i]);
+      result.ropes.push_back(*std::move(rope));
+    }
+    result.instances = estimator::sort_longest_first(parted->instances, result.ropes);
+  }
+  result.crossings = estimator::rope_crossings(result.ropes, frame);
+  total.lap(result.total_ms);
+  return result;
+}
+
 Result<Estimator> Estimator::create(const Config& config) {
   return guard::guarded("Estimator::create", [&]() -> Result<Estimator> {
     auto impl = Impl::create(config);
@@ -339,18 +378,30 @@ Result<Estimator> Estimator::create(const Config& config) {
   });
 }
 
+Result<void> Estimator::usable() const {
+  if (!impl_) {
+    return Error{ErrorCode::kBadInput,
+                 "Estimator: expected one in use, got one that was moved from; make a new one"};
+  }
+  if (impl_->process != ::getpid()) {
+    return Error{ErrorCode::kDeviceLost,
+                 "Estimator: expected the process that made it, got one forked from there, "
+                 "without its threads and device; make a new one"};
+  }
+  return {};
+}
+
 Result<Estimate> Estimator::estimate(const Frame& frame, Tensors* tensors) {
   return guard::guarded("Estimator::estimate", [&]() -> Result<Estimate> {
-    if (!impl_) {
-      return Error{ErrorCode::kBadInput,
-                   "Estimator: expected one in use, got one that was moved from; make a new one"};
-    }
-    if (impl_->process != ::getpid()) {
-      return Error{ErrorCode::kDeviceLost,
-                   "Estimator: expected the process that made it, got one forked from there, "
-                   "without its threads and device; make a new one"};
-    }
+    if (auto fine = usable(); !fine) return fine.error();
     return impl_->estimate(frame, tensors);
+  });
+}
+
+Result<Ropes> Estimator::estimate_ropes(const Frame& frame) {
+  return guard::guarded("Estimator::estimate_ropes", [&]() -> Result<Ropes> {
+    if (auto fine = usable(); !fine) return fine.error();
+    return impl_->estimate_ropes(frame);
   });
 }
 
