@@ -181,7 +181,8 @@ struct FLOWDLO_HIDDEN Estimator::Impl {
   pid_t process = ::getpid();  // in a process forked from this one threads and device are missing
 
   static Result<std::unique_ptr<Impl>> create(const Config& config);
-  Result<Estimate> estimate(const Frame& frame, Tensors* tensors);
+  Result<Estimate> estimate(const Frame& frame, Tensors* tensors,
+                            const path::Traversals* traced = nullptr);
   Result<Ropes> estimate_ropes(const Frame& frame);
   Result<flow::Prediction> sample(const flow::SampleInput& input);
   [[nodiscard]] weights::PriorKind prior_kind() const;
@@ -269,12 +270,13 @@ std::vector<int> Estimator::Impl::assign(
   return estimator::assign_draws(count, margin, config.draws);
 }
 
-Result<Estimate> Estimator::Impl::estimate(const Frame& frame, Tensors* tensors) {
+Result<Estimate> Estimator::Impl::estimate(const Frame& frame, Tensors* tensors,
+                                           const path::Traversals* traced) {
   if (auto valid = validate(frame); !valid) return valid.error();
   Timings timings;
   estimator::Stopwatch total;
-  const auto conditions =
-      estimator::gather(frame, config.rope_length_m, prior_kind(), timings);  // Sec. 3.2, 3.3
+  const auto conditions = estimator::gather(frame, config.rope_length_m, prior_kind(), timings,
+                                            traced);  // Sec. 3.2, 3.3
   estimator::Stopwatch stage;
   if (!conditions) return conditions.error();
   estimator::Rereading rereading(pool, readings(*conditions, frame), field ? &*field : nullptr,
@@ -353,7 +355,8 @@ Result<Ropes> Estimator::Impl::estimate_ropes(const Frame& frame) {
     const std::size_t count = parted->paths.ropes.size();
     for (std::size_t i = 0; i < count; ++i) {
       const estimator::RopeView view(*parted, i, frame);
-      auto rope = estimate(view.frame(), nullptr);
+      const path::Traversals traced = view.traversals();
+      auto rope = estimate(view.frame(), nullptr, &traced);
       if (!rope) {
         return Error{rope.error().code,
                      fmt::format("rope {} of {}: {}", i + 1, count, rope.error().message)};

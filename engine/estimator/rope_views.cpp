@@ -297,12 +297,14 @@ std::vector<std::uint16_t> sort_longest_first(std::vector<std::uint16_t> instanc
 }
 
 RopeView::RopeView(const Parted& parted, std::size_t rope, const Frame& frame)
-    : original_(frame),
+    : path_(parted.paths.ropes[rope]),
+      width_px_(parted.width_px[rope]),
+      original_(frame),
       mask_(frame.mask.size(), 0),
       depth_m_(frame.depth_m.begin(), frame.depth_m.end()) {
   const auto own = static_cast<std::uint16_t>(rope + 1);
   for (std::size_t p = 0; p < mask_.size(); ++p) mask_[p] = parted.instances[p] == own ? 255 : 0;
-  const Path& path = parted.paths.ropes[rope];
+  const Path& path = path_;
   const auto on_other = [&](std::size_t sample) {
     const std::uint16_t label = parted.instances[index_of(frame, path.points_px[sample])];
     return label != 0 && label != own;
@@ -338,6 +340,15 @@ RopeView::RopeView(const Parted& parted, std::size_t rope, const Frame& frame)
       if (slits || on_other(i)) fill(i, slits);
     }
   }
+}
+
+path::Traversals RopeView::traversals() const {
+  path::Traversals result;
+  result.ranked.push_back(path_);
+  result.ranked.front().width_px = width_px_;
+  result.rope_width_px = width_px_;
+  result.strands = 1;
+  return result;
 }
 
 Frame RopeView::frame() const {

@@ -47,7 +47,12 @@ class RopeView {
   /// Views into this object and into the frame given.
   [[nodiscard]] Frame frame() const;
 
+  /// The rope's way through it, as it was found among the others.
+  [[nodiscard]] path::Traversals traversals() const;
+
  private:
+  path::Path path_;
+  float width_px_;
   const Frame& original_;
   std::vector<std::uint8_t> mask_;
   std::vector<float> depth_m_;

@@ -118,10 +118,11 @@ Traversals merged(Traversals parted, const Traversals& whole, const TraceConfig&
   return parted;
 }
 
-// The better of both, by the same measure.
-RopePaths better(RopePaths parted, RopePaths whole) {
+// The better of both. What is wide all along is two strands where there is one rope; where there
+// are several it may as well be a thicker one.
+RopePaths better(RopePaths parted, RopePaths whole, int ropes) {
   const double lead = parted.ropes.front().score - whole.ropes.front().score;
-  return lead < -kLeftOut ? std::move(whole) : std::move(parted);
+  return lead < (ropes == 1 ? -kLeftOut : kLeftOut) ? std::move(whole) : std::move(parted);
 }
 
 template <class Answer, class Join>
@@ -169,7 +170,11 @@ Result<RopePaths> trace_ropes(const Frame& frame, int ropes) {
                                    const Frame& seen) {
     return rope_paths(strands, region, seen, ropes);
   };
-  return guard::guarded("path", [&] { return trace_mask(frame, read, better); });
+  return guard::guarded("path", [&] {
+    return trace_mask(frame, read, [&](RopePaths parted, RopePaths whole) {
+      return better(std::move(parted), std::move(whole), ropes);
+    });
+  });
 }
 
 }  // namespace flowdlo::path

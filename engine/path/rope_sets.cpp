@@ -116,7 +116,7 @@ std::vector<RopeSet> search_sets(const Strands& strands,
     const bool too_many = sets.front().ways.size() > wanted;
     for (RopeSet& set : sets) {
       if (ropes > 0 && set.ways.size() != wanted) continue;
-      set.cost += kRopeCost * static_cast<float>(set.ways.size());
+      for (const Traversal& way : set.ways) set.cost += way.closed ? kRingCost : kRopeCost;
       found.push_back(std::move(set));
     }
     const bool last = step + 1 == kPriceSteps;

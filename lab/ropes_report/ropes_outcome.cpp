@@ -31,8 +31,9 @@ Result<Ropes> by_priors(const Frame& frame, int wanted) {
   for (std::size_t i = 0; i < parted->paths.ropes.size(); ++i) {
     const estimator::RopeView view(*parted, i, frame);
     Timings timings;
+    const path::Traversals traced = view.traversals();
     const auto conditions =
-        estimator::gather(view.frame(), 0, weights::PriorKind::kRefined, timings);
+        estimator::gather(view.frame(), 0, weights::PriorKind::kRefined, timings, &traced);
     if (!conditions) return conditions.error();
     Estimate rope;
     rope.nodes = conditions->hypotheses.front().prior.nodes;
@@ -223,6 +224,7 @@ RopesOutcome outcome_of(const RopesScene& scene, const RopesRun& run) {
   const auto wanted = static_cast<int>(scene.ropes.size());
   outcome.all_right = outcome.found == wanted && outcome.right == wanted;
   compare_crossings(scene, *answer, of, outcome);
+  outcome.instances = std::move(answer->instances);
   outcome.ropes = std::move(answer->ropes);
   return outcome;
 }

@@ -25,6 +25,7 @@ struct RopesOutcome {
   double parting_ms = 0;
   double total_ms = 0;
   std::string error;            ///< where there is no answer
+  std::vector<std::uint16_t> instances;  ///< as Ropes has them
   std::vector<Estimate> ropes;  ///< as found
 };
 

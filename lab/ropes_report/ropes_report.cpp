@@ -102,7 +102,17 @@ bool draw(const std::string& file, const RopesScene& scene, const RopesOutcome& 
   picture *= 0.5;
   const cv::Mat mask(image.height, image.width, CV_8U,
                      const_cast<std::uint8_t*>(image.mask.data()));
-  picture.setTo(cv::Scalar(90, 90, 90), mask);
+  picture.setTo(cv::Scalar(90, 90, 90), mask > 127);
+  for (int v = 0; v < image.height && !outcome.instances.empty(); ++v) {
+    for (int u = 0; u < image.width; ++u) {
+      const auto label = outcome.instances[static_cast<std::size_t>(v) * image.width + u];
+      if (label == 0) continue;
+      const auto& color = kColors[(label - 1U) % kColors.size()];
+      for (int c = 0; c < 3; ++c) {
+        picture.at<cv::Vec3b>(v, u)[c] = static_cast<std::uint8_t>(30 + 0.4 * color[c]);
+      }
+    }
+  }
   for (std::size_t i = 0; i < outcome.ropes.size(); ++i) {
     std::vector<cv::Point> points;
     for (const auto& p : outcome.ropes[i].nodes) {
