@@ -210,6 +210,7 @@ std::vector<std::uint8_t> bytes_of(const cv::Mat& image) {
 }
 
 std::vector<std::uint16_t> labels_of(const cv::Mat& instances) {
+  if (instances.empty()) return {};
   return {instances.begin<std::uint16_t>(), instances.end<std::uint16_t>()};
 }
 
