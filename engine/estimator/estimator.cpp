@@ -1,7 +1,6 @@
 // Estimator: the one file that sees every room. Chapter 3 of the thesis, Figure 3.1.
 #include "flowdlo/estimator.hpp"
 
-#include <fmt/format.h>
 #include <unistd.h>
 #ifdef __GLIBC__
 #include <malloc.h>
@@ -16,9 +15,9 @@
 #include "estimator/confidence.hpp"
 #include "estimator/config_check.hpp"
 #include "estimator/device_choice.hpp"
-#include "estimator/rope_crossings.hpp"
-#include "estimator/rope_views.hpp"
+#include "estimator/field_network.hpp"
 #include "estimator/second_look.hpp"
+#include "estimator/several.hpp"
 #include "estimator/stopwatch.hpp"
 #include "estimator/tensors.hpp"
 #include "estimator/weights_location.hpp"
@@ -33,7 +32,6 @@
 #include "prior/prior.hpp"
 #include "threads/aside.hpp"
 #include "threads/pool.hpp"
-#include "weights/field_weights.hpp"
 #include "weights/kept_file.hpp"
 #include "weights/weights.hpp"
 
@@ -70,23 +68,6 @@ flow::WeightsSource source_of(const weights::Loaded& loaded) {
     auto weights = first.lock();
     return weights ? weights : std::make_shared<const weights::Weights>(file->decoded());
   };
-}
-
-/// The network that sees strands, on one thread of the CPU: it works beside the model. None where
-/// it is off or no weights are to be had.
-Result<std::optional<field::Network>> open_field(const Config& config,
-                                                 const std::filesystem::path& weights) {
-  if (config.field == FieldChoice::kOff) return std::optional<field::Network>();
-  const auto file =
-      config.field_weights.empty() ? estimator::field_beside(weights) : config.field_weights;
-  if (file.empty()) return std::optional<field::Network>();
-  auto loaded = weights::load_field(file);
-  if (!loaded) return loaded.error();
-  const auto cpu = estimator::cpu_back_end(1);
-  auto network = field::Network::create(
-      std::make_shared<const weights::FieldWeights>(*std::move(loaded)), cpu.make_program);
-  if (!network) return network.error();
-  return std::optional(*std::move(network));
 }
 
 /// To the system, what making an estimator used once: a driver's compiler and the decoded weights
@@ -183,7 +164,6 @@ struct FLOWDLO_HIDDEN Estimator::Impl {
   static Result<std::unique_ptr<Impl>> create(const Config& config);
   Result<Estimate> estimate(const Frame& frame, Tensors* tensors,
                             const path::Traversals* traced = nullptr);
-  Result<Ropes> estimate_ropes(const Frame& frame);
   Result<flow::Prediction> sample(const flow::SampleInput& input);
   [[nodiscard]] weights::PriorKind prior_kind() const;
   [[nodiscard]] bool calibrated() const;
@@ -209,7 +189,7 @@ Result<std::unique_ptr<Estimator::Impl>> Estimator::Impl::create(const Config& w
   const auto weights = source_of(*loaded);
   auto sampler = flow::Sampler::create(weights, back_end->make_program, sampler_config(config));
   if (!sampler) return sampler.error();
-  auto field = open_field(config, *file);
+  auto field = estimator::open_field(config, *file);
   if (!field) return field.error();
   return std::unique_ptr<Impl>(  // an aggregate, which Clang 14 makes by braces only
       new Impl{config, metadata, weights, back_end->name, *std::move(sampler), *std::move(field)});
@@ -337,41 +317,6 @@ Result<Estimate> Estimator::Impl::estimate(const Frame& frame, Tensors* tensors,
   return estimate;
 }
 
-/// Each rope goes the way of one, in a view of the frame that is its own.
-Result<Ropes> Estimator::Impl::estimate_ropes(const Frame& frame) {
-  if (auto valid = validate(frame); !valid) return valid.error();
-  estimator::Stopwatch total;
-  estimator::Stopwatch stage;
-  Ropes result;
-  if (config.ropes == 1 && frame.instances.empty()) {
-    auto rope = estimate(frame, nullptr);
-    if (!rope) return rope.error();
-    result.ropes.push_back(*std::move(rope));
-    result.instances = estimator::one_instance(frame);
-  } else {
-    const auto parted = estimator::part_ropes(frame, config.ropes);
-    if (!parted) return parted.error();
-    stage.lap(result.parting_ms);
-    const std::size_t count = parted->paths.ropes.size();
-    for (std::size_t i = 0; i < count; ++i) {
-      const estimator::RopeView view(*parted, i, frame);
-      const path::Traversals traced = view.traversals();
-      auto rope = estimate(view.frame(), nullptr, &traced);
-      if (!rope) {
-        return Error{rope.error().code,
-                     fmt::format("rope {} of {}: {}", i + 1, count, rope.error().message)};
-      }
-      rope->closed = parted->paths.ropes[i].closed;
-      rope->confidence *= estimator::told_apart(parted->paths.lead[i]);
-      result.ropes.push_back(*std::move(rope));
-    }
-    result.instances = estimator::sort_longest_first(parted->instances, result.ropes);
-  }
-  result.crossings = estimator::rope_crossings(result.ropes, frame);
-  total.lap(result.total_ms);
-  return result;
-}
-
 Result<Estimator> Estimator::create(const Config& config) {
   return guard::guarded("Estimator::create", [&]() -> Result<Estimator> {
     auto impl = Impl::create(config);
@@ -404,7 +349,11 @@ Result<Estimate> Estimator::estimate(const Frame& frame, Tensors* tensors) {
 Result<Ropes> Estimator::estimate_ropes(const Frame& frame) {
   return guard::guarded("Estimator::estimate_ropes", [&]() -> Result<Ropes> {
     if (auto fine = usable(); !fine) return fine.error();
-    return impl_->estimate_ropes(frame);
+    if (auto valid = validate(frame); !valid) return valid.error();
+    return estimator::estimate_each(frame, impl_->config.ropes,
+                                    [&](const Frame& view, const path::Traversals* traced) {
+                                      return impl_->estimate(view, nullptr, traced);
+                                    });
   });
 }
 

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "estimator/conditions.hpp"
+#include "estimator/parted.hpp"
 #include "estimator/rope_crossings.hpp"
 #include "estimator/rope_views.hpp"
 #include "eval/metrics.hpp"

@@ -7,6 +7,7 @@
 #include <set>
 #include <stdexcept>
 
+#include "estimator/parted.hpp"
 #include "estimator/rope_crossings.hpp"
 #include "estimator/rope_views.hpp"
 #include "flowdlo/estimator.hpp"
@@ -226,8 +227,9 @@ TEST(RopeCrossings, LinesThatCrossBackWithinTwoWidthsDoNotCross) {
   EXPECT_NEAR(crossings[0].over_at_m, 0.2F, 0.02F);
 }
 
-TEST(ToldApart, IsHalfAtATieAndSureBeyond) {
-  EXPECT_FLOAT_EQ(estimator::told_apart(0), 0.5F);
+TEST(ToldApart, RisesFromDoubtAtATieToCertainty) {
+  EXPECT_LT(estimator::told_apart(0), 0.2F);
+  EXPECT_LT(estimator::told_apart(1), estimator::told_apart(2));
   EXPECT_GT(estimator::told_apart(path::kMostLead), 0.97F);
 }
 
