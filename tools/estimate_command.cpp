@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <map>
@@ -35,6 +36,7 @@ struct EstimateOptions {
   bool tensors = false;
   bool field_overlay = false;
   bool quiet = false;
+  bool several = false;  // Config::ropes was given
 };
 
 void complain(const Error& error) { tell_error("{}\n", error.message); }
@@ -66,6 +68,16 @@ std::string summary(const Estimate& estimate, const FrameEntry& entry, const fs:
                      files::shown(folder / "overlay.png"));
 }
 
+std::string summary(const Ropes& ropes, const FrameEntry& entry, const fs::path& folder) {
+  float least = 1;
+  for (const Estimate& rope : ropes.ropes) least = std::min(least, rope.confidence);
+  return fmt::format("{}: {} rope{}, {} crossing{}, least confidence {:.2f}, {:.0f} ms, {}",
+                     files::shown(entry.name), ropes.ropes.size(),
+                     ropes.ropes.size() == 1 ? "" : "s", ropes.crossings.size(),
+                     ropes.crossings.size() == 1 ? "" : "s", least, ropes.total_ms,
+                     files::shown(folder / "overlay.png"));
+}
+
 /// What there is to say about one frame, or why there is no estimate on disk.
 Result<std::string> run_frame(const EstimateOptions& options, const FrameEntry& entry,
                               Estimator& estimator) {
@@ -80,6 +92,13 @@ Result<std::string> run_frame(const EstimateOptions& options, const FrameEntry& 
   };
   const auto loaded = load_frame(entry);
   if (!loaded) return fail(loaded.error());
+  if (options.several) {
+    const auto ropes = estimator.estimate_ropes(loaded->frame());
+    if (!ropes) return fail(ropes.error());
+    const auto written = write_ropes(folder, loaded->frame(), *ropes, provenance, durability);
+    if (!written) return fail(written.error());
+    return summary(*ropes, entry, folder);
+  }
   Tensors tensors;
   const bool looks_inside = options.tensors || options.field_overlay;
   const auto estimate = looks_inside ? estimator.estimate(loaded->frame(), tensors)
@@ -145,13 +164,28 @@ void add_estimate_command(CLI::App& app, ExitCode& exit_code) {
       ->required()
       ->type_name("DIR");
   add_model_options(*command, options->config);
-  command->add_flag("--tensors", options->tensors, "Write the model's tensors as .npy as well");
+  auto* ropes =
+      command
+          ->add_option_function<std::string>(
+              "--ropes",
+              [options](const std::string& number) {
+                options->several = true;
+                options->config.ropes = number == "auto" ? 0 : std::stoi(number);
+              },
+              fmt::format("How many ropes a frame shows, 1 to {}, or auto, as many as there are; "
+                          "an instances.png in its folder tells as well [one]",
+                          kMostRopes))
+          ->check(CLI::Range(1, kMostRopes) | CLI::IsMember({"auto"}))
+          ->type_name("N");
+  command->add_flag("--tensors", options->tensors, "Write the model's tensors as .npy as well")
+      ->excludes(ropes);
   command
       ->add_option("--overlay", options->field_overlay,
                    "What overlay.png shows below the curve: plain, the image alone, or field, what "
                    "the strand field says of it")
       ->transform(CLI::CheckedTransformer(
           std::map<std::string, bool>{{"plain", false}, {"field", true}}, CLI::ignore_case))
+      ->excludes(ropes)
       ->type_name("WHAT");
   command->add_flag("--quiet", options->quiet, "Print errors only");
   add_recording_options(*command, options->recordings);

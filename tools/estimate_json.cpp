@@ -6,6 +6,8 @@
 #include <cmath>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
+#include <utility>
+#include <vector>
 
 #include "flowdlo/version.hpp"
 
@@ -137,12 +139,15 @@ const char* name_of(Source source) {
   return source == Source::kPrediction ? "prediction" : "prior";
 }
 
-std::string estimate_json(const Estimate& estimate, const Provenance& provenance) {
+namespace {
+
+Json whole_json(const Estimate& estimate, const Provenance& provenance) {
   Json json = header("ok", sentence(estimate), provenance);
-  json["source"] = name_of(estimate.source);
+  json["source"] = tools::name_of(estimate.source);
   json["draw"] = estimate.draw < 0 ? Json(nullptr) : Json(estimate.draw);
   json["gate"] = estimate.calibrated ? "calibrated" : "thesis";
   json["confidence"] = number(estimate.confidence);
+  json["closed"] = estimate.closed;
   json["one_rope"] = one_rope_json(estimate.one_rope);
   json["readings"] = estimate.readings;
   json["left_out"] = Json::array();
@@ -156,6 +161,60 @@ std::string estimate_json(const Estimate& estimate, const Provenance& provenance
   json["alternatives"] = alternatives_json(estimate.alternatives);
   json["timings_ms"] = timings_json(estimate.timings);
   json["device_timings_ms"] = device_timings_json(estimate.timings);
+  return json;
+}
+
+// Those of one rope with others and with itself, in order along it.
+Json crossings_json(const Ropes& ropes, int rope) {
+  std::vector<std::pair<float, Json>> found;
+  for (const RopeCrossing& crossing : ropes.crossings) {
+    for (const bool over : {true, false}) {
+      if ((over ? crossing.over : crossing.under) != rope) continue;
+      const float at_m = over ? crossing.over_at_m : crossing.under_at_m;
+      found.emplace_back(
+          at_m, Json{{"rope", over ? crossing.under : crossing.over},
+                     {"at_m", number(at_m)},
+                     {"other_at_m", number(over ? crossing.under_at_m : crossing.over_at_m)},
+                     {"over", over},
+                     {"apart_m", number(crossing.apart_m)}});
+    }
+  }
+  std::stable_sort(found.begin(), found.end(),
+                   [](const auto& a, const auto& b) { return a.first < b.first; });
+  Json list = Json::array();
+  for (auto& [at_m, crossing] : found) list.push_back(std::move(crossing));
+  return list;
+}
+
+Json rope_json(const Ropes& ropes, std::size_t index) {
+  const Estimate& rope = ropes.ropes[index];
+  Json nodes = Json::array();
+  for (const Point3& node : rope.nodes) nodes.push_back(numbers(node));
+  Json sigma_m = Json::array();
+  for (const float sigma : rope.sigma_m) sigma_m.push_back(number(sigma));
+  return {{"nodes", std::move(nodes)},
+          {"closed", rope.closed},
+          {"source", tools::name_of(rope.source)},
+          {"support", rope.support},
+          {"sigma_m", std::move(sigma_m)},
+          {"confidence", number(rope.confidence)},
+          {"one_rope", one_rope_json(rope.one_rope)},
+          {"mask_agreement", number(rope.mask_agreement)},
+          {"crossings", crossings_json(ropes, static_cast<int>(index))}};
+}
+
+}  // namespace
+
+std::string estimate_json(const Estimate& estimate, const Provenance& provenance) {
+  return text_of(whole_json(estimate, provenance));
+}
+
+std::string ropes_json(const Ropes& ropes, const Provenance& provenance) {
+  Json json = whole_json(ropes.ropes.front(), provenance);
+  json["ropes"] = Json::array();
+  for (std::size_t i = 0; i < ropes.ropes.size(); ++i) json["ropes"].push_back(rope_json(ropes, i));
+  json["parting_ms"] = number(ropes.parting_ms);
+  json["ropes_ms"] = number(ropes.total_ms);
   return text_of(json);
 }
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "files/folder_update.hpp"
+#include "flowdlo/config.hpp"
 #include "frame/centerline_csv.hpp"
 #include "frame/png.hpp"
 #include "overlay.hpp"
@@ -20,6 +21,22 @@ constexpr const char* kKeyFile = "estimate.json";  // while it is missing, nothi
 std::vector<std::string> other_names() {
   std::vector<std::string> names = {"centerline.csv", "overlay.png"};
   names.insert(names.end(), kTensorFileNames.begin(), kTensorFileNames.end());
+  return names;
+}
+
+std::string centerline_name(std::size_t rope) {
+  return rope == 0 ? "centerline.csv" : "centerline_" + std::to_string(rope) + ".csv";
+}
+
+// Of all but the first rope; those that stand there.
+std::vector<std::string> further_centerlines(const fs::path& folder) {
+  std::vector<std::string> names;
+  for (std::size_t rope = 1; rope < kMostRopes; ++rope) {
+    std::error_code failure;
+    const std::string name = centerline_name(rope);
+    const auto type = fs::symlink_status(folder / name, failure).type();
+    if (type != fs::file_type::not_found) names.push_back(name);
+  }
   return names;
 }
 
@@ -41,6 +58,18 @@ Result<void> put_all(files::FolderUpdate& update, const Frame& frame, const Esti
   return update.put(kKeyFile, estimate_json(estimate, provenance));
 }
 
+Result<void> put_all(files::FolderUpdate& update, const Frame& frame, const Ropes& ropes,
+                     const Provenance& provenance) {
+  for (std::size_t rope = 0; rope < ropes.ropes.size(); ++rope) {
+    const auto text = frame::format_centerline(ropes.ropes[rope].nodes);
+    if (auto done = update.put(centerline_name(rope), text); !done) return done;
+  }
+  const auto picture = frame::encode_png(draw_overlay(frame, ropes, provenance.device));
+  if (!picture) return picture.error();
+  if (auto done = update.put("overlay.png", *picture); !done) return done;
+  return update.put(kKeyFile, ropes_json(ropes, provenance));
+}
+
 }  // namespace
 
 Result<void> forget_results(const fs::path& folder, Durability durability,
@@ -51,6 +80,7 @@ Result<void> forget_results(const fs::path& folder, Durability durability,
   if (!update) return update.error();
   update->remove(kKeyFile);
   for (const auto& name : other_names()) update->remove(name);
+  for (const auto& name : further_centerlines(folder)) update->remove(name);
   return update->commit();
 }
 
@@ -61,6 +91,16 @@ Result<void> write_estimate(const fs::path& folder, const Frame& frame, const Es
   auto update = files::FolderUpdate::begin(folder, kKeyFile, durability, calls);
   if (!update) return update.error();
   auto done = put_all(*update, frame, estimate, extras, provenance);
+  return done ? update->commit() : done;
+}
+
+Result<void> write_ropes(const fs::path& folder, const Frame& frame, const Ropes& ropes,
+                         const Provenance& provenance, Durability durability,
+                         const files::SystemCalls& calls) {
+  if (auto done = forget_results(folder, durability, calls); !done) return done;
+  auto update = files::FolderUpdate::begin(folder, kKeyFile, durability, calls);
+  if (!update) return update.error();
+  auto done = put_all(*update, frame, ropes, provenance);
   return done ? update->commit() : done;
 }
 

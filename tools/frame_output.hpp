@@ -33,6 +33,13 @@ struct Extras {
                                           Durability durability = Durability::kSynced,
                                           const files::SystemCalls& calls = files::kernel());
 
+/// The same of several ropes: centerline.csv is the first one's, centerline_1.csv and so on the
+/// others'.
+[[nodiscard]] Result<void> write_ropes(const std::filesystem::path& folder, const Frame& frame,
+                                       const Ropes& ropes, const Provenance& provenance,
+                                       Durability durability = Durability::kSynced,
+                                       const files::SystemCalls& calls = files::kernel());
+
 /// Writes estimate.json with the error, and removes everything else of an earlier run, so that no
 /// curve stands beside a failed status. Fails with kIo: then there is no estimate.json.
 [[nodiscard]] Result<void> write_failure(const std::filesystem::path& folder, const Error& error,

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <opencv2/imgproc.hpp>
+#include <string>
 #include <vector>
 
 #include "overlay_legend.hpp"
@@ -131,39 +132,57 @@ void stroke(cv::Mat& picture, const std::vector<cv::Point2f>& points, const cv::
   cv::polylines(picture, fixed_point, false, color, thickness_px, cv::LINE_AA, kShift);
 }
 
-const cv::Scalar& color_of(const Estimate& estimate, std::size_t node) {
-  return estimate.support[node] != 0 ? kSupportedColor : kBridgedColor;
-}
+// A curve's colours: where visible points back it, and where none do.
+struct Paint {
+  cv::Scalar supported;
+  cv::Scalar bridged;
+
+  [[nodiscard]] const cv::Scalar& at(const Estimate& estimate, std::size_t node) const {
+    return estimate.support[node] != 0 ? supported : bridged;
+  }
+};
 
 // Each node colours the curve half way to its neighbours.
 void draw_colored(cv::Mat& picture, const ProjectedCurve& curve, const Estimate& estimate,
-                  double from, double to, int line_px) {
+                  double from, double to, int line_px, const Paint& paint) {
   const auto first = static_cast<int>(std::lround(std::max(from, 0.0)));
   for (int node = first; node < kNodes && node - 0.5 < to; ++node) {
     stroke(picture, curve.piece(std::max(from, node - 0.5), std::min(to, node + 0.5)),
-           color_of(estimate, static_cast<std::size_t>(node)), line_px);
+           paint.at(estimate, static_cast<std::size_t>(node)), line_px);
   }
 }
 
+// The strand that is above at a crossing, once more: its rim cuts the lower one. The flatter the
+// crossing, the longer the cut.
+void draw_above(cv::Mat& picture, const ProjectedCurve& curve, const Estimate& estimate,
+                double position, float sine, const OverlayStyle& style, const Paint& paint) {
+  const int rimmed_px = style.line_px + 2 * style.rim_px;
+  const float flatness = 1.0F / std::max(sine, 0.25F);
+  const float half_px = static_cast<float>(rimmed_px) * (0.5F + flatness);
+  const auto reach_px = half_px + static_cast<float>(rimmed_px);  // covers the rim's round ends
+  stroke(picture,
+         curve.piece(curve.advanced(position, -half_px), curve.advanced(position, half_px)),
+         kRimColor, rimmed_px);
+  draw_colored(picture, curve, estimate, curve.advanced(position, -reach_px),
+               curve.advanced(position, reach_px), style.line_px, paint);
+}
+
 void draw_curve(cv::Mat& picture, const ProjectedCurve& curve, const Estimate& estimate,
-                const OverlayStyle& style) {
+                const OverlayStyle& style, const Paint& paint) {
   const int rimmed_px = style.line_px + 2 * style.rim_px;
   stroke(picture, curve.piece(0, kNodes - 1), kRimColor, rimmed_px);
-  draw_colored(picture, curve, estimate, 0, kNodes - 1, style.line_px);
-
-  // Where it crosses itself, the upper strand once more: its rim cuts the lower one. The flatter
-  // the crossing, the longer the cut.
+  draw_colored(picture, curve, estimate, 0, kNodes - 1, style.line_px, paint);
   for (const auto& crossing : curve.crossings()) {
-    const float flatness = 1.0F / std::max(crossing.sine, 0.25F);
-    const float half_px = static_cast<float>(rimmed_px) * (0.5F + flatness);
-    const auto reach_px = half_px + static_cast<float>(rimmed_px);  // covers the rim's round ends
-    stroke(picture,
-           curve.piece(curve.advanced(crossing.upper, -half_px),
-                       curve.advanced(crossing.upper, half_px)),
-           kRimColor, rimmed_px);
-    draw_colored(picture, curve, estimate, curve.advanced(crossing.upper, -reach_px),
-                 curve.advanced(crossing.upper, reach_px), style.line_px);
+    draw_above(picture, curve, estimate, crossing.upper, crossing.sine, style, paint);
   }
+}
+
+// From the last node of a ring on to the first.
+void close(cv::Mat& picture, const ProjectedCurve& curve, const OverlayStyle& style,
+           const Paint& paint) {
+  const std::vector<cv::Point2f> gap{curve.nodes_px().back(), curve.nodes_px().front()};
+  stroke(picture, gap, kRimColor, style.line_px + 2 * style.rim_px);
+  stroke(picture, gap, paint.supported, style.line_px);
 }
 
 // Only where they do not run together.
@@ -229,6 +248,24 @@ void mark_drawn(cv::Mat& rope, const ProjectedCurve& curve, const EndMarkers& ma
   }
 }
 
+// Where along its nodes a rope has run that far, 0 to 63.
+double position_at(const Centerline& nodes, float along_m) {
+  double left = static_cast<double>(along_m);
+  for (std::size_t i = 1; i < nodes.size(); ++i) {
+    const double step = std::hypot(static_cast<double>(nodes[i].x - nodes[i - 1].x),
+                                   static_cast<double>(nodes[i].y - nodes[i - 1].y),
+                                   static_cast<double>(nodes[i].z - nodes[i - 1].z));
+    if (left <= step) return static_cast<double>(i - 1) + left / std::max(step, 1.0e-9);
+    left -= step;
+  }
+  return kNodes - 1;
+}
+
+Paint paint_of(std::size_t rope) {
+  const cv::Scalar& color = rope_color(rope);
+  return {color, 0.5 * color};
+}
+
 }  // namespace
 
 cv::Mat draw_overlay(const Frame& frame, const Estimate& estimate, const std::string& device,
@@ -247,7 +284,8 @@ cv::Mat draw_overlay(const Frame& frame, const Estimate& estimate, const std::st
   draw_mask_outline(picture, rope, style);
   const ProjectedCurve curve(estimate.nodes, frame.intrinsics, static_cast<float>(zoom));
   if (curve.drawable()) {
-    if (strands == nullptr) draw_curve(picture, curve, estimate, style);
+    const Paint paint{kSupportedColor, kBridgedColor};
+    if (strands == nullptr) draw_curve(picture, curve, estimate, style, paint);
     draw_nodes(picture, curve, style);
     const auto markers = end_markers(curve, size, style);
     const cv::Scalar white(255, 255, 255);
@@ -256,6 +294,46 @@ cv::Mat draw_overlay(const Frame& frame, const Estimate& estimate, const std::st
     mark_drawn(rope, curve, markers, style);
   }
   draw_legend(picture, rope, estimate, device, style);
+  return picture;
+}
+
+cv::Mat draw_overlay(const Frame& frame, const Ropes& ropes, const std::string& device) {
+  const int zoom = zoom_of(frame);
+  const cv::Size size(frame.width * zoom, frame.height * zoom);
+  const cv::Mat mask = mask_of(frame);
+  cv::Mat picture;
+  cv::Mat covered;
+  cv::resize(background(frame, mask), picture, size, 0, 0, cv::INTER_NEAREST);
+  cv::resize(mask, covered, size, 0, 0, cv::INTER_NEAREST);
+  const OverlayStyle style(size.width);
+  draw_mask_outline(picture, covered, style);
+
+  std::vector<ProjectedCurve> curves;
+  for (const Estimate& rope : ropes.ropes) {
+    curves.emplace_back(rope.nodes, frame.intrinsics, static_cast<float>(zoom));
+  }
+  for (std::size_t i = curves.size(); i-- > 0;) {  // the longest last: above the others
+    if (!curves[i].drawable()) continue;
+    draw_curve(picture, curves[i], ropes.ropes[i], style, paint_of(i));
+    if (ropes.ropes[i].closed) close(picture, curves[i], style, paint_of(i));
+  }
+  for (const RopeCrossing& crossing : ropes.crossings) {
+    const auto over = static_cast<std::size_t>(crossing.over);
+    if (over >= curves.size() || !curves[over].drawable()) continue;
+    constexpr float kUsualSine = 0.7F;
+    draw_above(picture, curves[over], ropes.ropes[over],
+               position_at(ropes.ropes[over].nodes, crossing.over_at_m), kUsualSine, style,
+               paint_of(over));
+  }
+  for (std::size_t i = 0; i < curves.size(); ++i) {
+    if (!curves[i].drawable() || ropes.ropes[i].closed) continue;
+    const auto markers = end_markers(curves[i], size, style);
+    const std::string number = std::to_string(i);
+    draw_marker(picture, markers.first, number.c_str(), rope_color(i), kRimColor, style);
+    draw_marker(picture, markers.last, number.c_str(), kRimColor, rope_color(i), style);
+    mark_drawn(covered, curves[i], markers, style);
+  }
+  draw_legend(picture, covered, ropes, device, style);
   return picture;
 }
 

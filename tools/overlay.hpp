@@ -17,4 +17,10 @@ namespace flowdlo::tools {
 [[nodiscard]] cv::Mat draw_overlay(const Frame& frame, const Estimate& estimate,
                                    const std::string& device, const SeenStrands* strands = nullptr);
 
+/// The same of several ropes, each in its own colour, darker where nothing visible backs it, its
+/// ends numbered as the ropes are; a ring has none. At each crossing the upper rope is drawn over
+/// the other.
+[[nodiscard]] cv::Mat draw_overlay(const Frame& frame, const Ropes& ropes,
+                                   const std::string& device);
+
 }  // namespace flowdlo::tools

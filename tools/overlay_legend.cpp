@@ -13,6 +13,7 @@ namespace {
 
 constexpr int kFont = cv::FONT_HERSHEY_SIMPLEX;
 constexpr std::size_t kLongestDevice = 34;
+constexpr std::size_t kMostSwatches = 9;
 
 struct Swatch {
   cv::Scalar color;
@@ -34,16 +35,33 @@ std::string source_of(const Estimate& estimate) {
   return any ? "prior (likelier than the draws)" : "prior (no draw passed the gate)";
 }
 
+std::string shown(const std::string& device) {
+  std::string result = device.substr(0, kLongestDevice);
+  if (result.size() < device.size()) result += "...";
+  return result;
+}
+
 Legend legend_of(const Estimate& estimate, const std::string& device) {
   const auto supported = std::count(estimate.support.begin(), estimate.support.end(), 1);
-  std::string shown_device = device.substr(0, kLongestDevice);
-  if (shown_device.size() < device.size()) shown_device += "...";
   return {{source_of(estimate),
            fmt::format("confidence {:.2f}   mask agreement {:.2f}", estimate.confidence,
                        estimate.mask_agreement),
-           fmt::format("{}   {:.0f} ms", shown_device, estimate.timings.total_ms)},
+           fmt::format("{}   {:.0f} ms", shown(device), estimate.timings.total_ms)},
           {{kSupportedColor, fmt::format("supported {}", supported)},
            {kBridgedColor, fmt::format("bridged {}", kNodes - supported)}}};
+}
+
+Legend legend_of(const Ropes& ropes, const std::string& device) {
+  float least = 1;
+  for (const Estimate& rope : ropes.ropes) least = std::min(least, rope.confidence);
+  Legend legend{{fmt::format("{} ropes, {} crossings", ropes.ropes.size(), ropes.crossings.size()),
+                 fmt::format("least confidence {:.2f}", least),
+                 fmt::format("{}   {:.0f} ms", shown(device), ropes.total_ms)},
+                {}};
+  for (std::size_t i = 0; i < std::min(ropes.ropes.size(), kMostSwatches); ++i) {
+    legend.swatches.push_back({rope_color(i), fmt::format("{}", i)});
+  }
+  return legend;
 }
 
 struct Metrics {
@@ -99,11 +117,7 @@ cv::Rect best_corner(const cv::Size& size, const cv::Mat& rope, int margin_px) {
   return best;
 }
 
-}  // namespace
-
-void draw_legend(cv::Mat& picture, const cv::Mat& rope, const Estimate& estimate,
-                 const std::string& device, const OverlayStyle& style) {
-  const auto legend = legend_of(estimate, device);
+void draw(const Legend& legend, cv::Mat& picture, const cv::Mat& rope, const OverlayStyle& style) {
   const Metrics metrics(style);
   const auto box = best_corner(size_of(legend, metrics), rope, metrics.padding_px);
   if (box.empty()) return;
@@ -126,6 +140,18 @@ void draw_legend(cv::Mat& picture, const cv::Mat& rope, const Estimate& estimate
                 kFont, metrics.font_scale, kTextColor, metrics.thickness, cv::LINE_AA);
     at += metrics.width_of(swatch);
   }
+}
+
+}  // namespace
+
+void draw_legend(cv::Mat& picture, const cv::Mat& rope, const Estimate& estimate,
+                 const std::string& device, const OverlayStyle& style) {
+  draw(legend_of(estimate, device), picture, rope, style);
+}
+
+void draw_legend(cv::Mat& picture, const cv::Mat& rope, const Ropes& ropes,
+                 const std::string& device, const OverlayStyle& style) {
+  draw(legend_of(ropes, device), picture, rope, style);
 }
 
 }  // namespace flowdlo::tools

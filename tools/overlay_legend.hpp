@@ -14,4 +14,9 @@ namespace flowdlo::tools {
 void draw_legend(cv::Mat& picture, const cv::Mat& rope, const Estimate& estimate,
                  const std::string& device, const OverlayStyle& style);
 
+/// The same of several ropes: how many, how sure of the least sure one, the device, and each rope's
+/// colour by its number.
+void draw_legend(cv::Mat& picture, const cv::Mat& rope, const Ropes& ropes,
+                 const std::string& device, const OverlayStyle& style);
+
 }  // namespace flowdlo::tools

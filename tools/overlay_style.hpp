@@ -2,7 +2,9 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <opencv2/core/types.hpp>
 
 namespace flowdlo::tools {
@@ -12,6 +14,14 @@ inline const cv::Scalar kBridgedColor(0, 140, 255);
 inline const cv::Scalar kRimColor(24, 16, 12);
 inline const cv::Scalar kMaskOutlineColor(235, 235, 235);
 inline const cv::Scalar kTextColor(240, 240, 240);
+
+/// Of one of several ropes, by its index; they begin again after nine.
+inline const cv::Scalar& rope_color(std::size_t rope) {
+  static const std::array<cv::Scalar, 9> colors{
+      cv::Scalar(196, 212, 32), {60, 160, 255},  {255, 130, 90},  {90, 230, 90},  {230, 110, 230},
+      {60, 230, 245},           {255, 235, 150}, {130, 130, 255}, {190, 190, 190}};
+  return colors[rope % colors.size()];
+}
 
 /// Sizes in pixels of the picture; they grow with it.
 struct OverlayStyle {

@@ -1,6 +1,7 @@
 // Budget: which of a frame's work still ends within the time that the caller gave it.
 #pragma once
 
+#include <algorithm>
 #include <chrono>
 
 namespace flowdlo::estimator {
@@ -16,8 +17,15 @@ class Budget {
   /// Whether work that takes so long would end in time.
   [[nodiscard]] bool leaves(double ms) const { return !bounded() || spent_ms() + ms <= budget_ms_; }
 
+  /// A budget of its own, of that share of what is left; no more than a moment where nothing is.
+  [[nodiscard]] Budget part(double share) const {
+    return Budget(bounded() ? std::max(kMoment_ms, share * (budget_ms_ - spent_ms())) : 0);
+  }
+
  private:
   using Clock = std::chrono::steady_clock;
+
+  static constexpr double kMoment_ms = 1e-6;
 
   [[nodiscard]] double spent_ms() const {
     return std::chrono::duration<double, std::milli>(Clock::now() - begin_).count();

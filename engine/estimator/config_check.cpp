@@ -23,6 +23,8 @@ Result<void> check(const Config& config) {
   expect(config.euler_steps >= 1 && config.euler_steps <= 64, "euler_steps", "1 to 64",
          config.euler_steps);
   expect(config.draws >= 1 && config.draws <= 64, "draws", "1 to 64", config.draws);
+  expect(config.ropes >= 0 && config.ropes <= kMostRopes, "ropes",
+         fmt::format("0 (as many as there are) to {}", kMostRopes).c_str(), config.ropes);
   expect(config.threads >= 0 && config.threads <= 1024, "threads", "0 to 1024", config.threads);
   expect(config.max_width >= 1 && config.max_width <= 4096, "max_width", "1 to 4096",
          config.max_width);

@@ -19,6 +19,7 @@
 #include "estimator/known_scene.hpp"
 #include "estimator/opening.hpp"
 #include "estimator/second_look.hpp"
+#include "estimator/several.hpp"
 #include "estimator/stopwatch.hpp"
 #include "estimator/tensors.hpp"
 #include "estimator/weights_location.hpp"
@@ -101,6 +102,7 @@ Estimate conclude(const Returned& returned, const std::vector<estimator::Hypothe
   estimate.nodes =
       returned.draw >= 0 ? prediction.draws[static_cast<std::size_t>(returned.draw)] : prior.nodes;
   estimate.support = prior.support;
+  estimate.closed = hypotheses[returned.hypothesis].evidence.closed;
   estimate.sigma_m = returned.sigma_m;
   estimate.mask_agreement = mask.agreement(estimate.nodes, frame.intrinsics);
   estimate.prior_mask_agreement = verdict.prior_agreement;
@@ -135,7 +137,8 @@ struct FLOWDLO_HIDDEN Estimator::Impl {
 
   static Result<std::unique_ptr<Impl>> create(const Config& config);
   void learn_costs();
-  Result<Estimate> estimate(const Frame& frame, Tensors* tensors);
+  Result<Estimate> estimate(const Frame& frame, Tensors* tensors, const estimator::Budget& budget,
+                            const path::Traversals* traced = nullptr);
   Result<flow::Prediction> sample(const flow::SampleInput& input);
   [[nodiscard]] weights::PriorKind prior_kind() const;
   [[nodiscard]] bool calibrated() const;
@@ -177,7 +180,7 @@ Result<std::unique_ptr<Estimator::Impl>> Estimator::Impl::create(const Config& w
 void Estimator::Impl::learn_costs() {
   const estimator::KnownScene scene;
   Tensors tensors;  // nothing is left out where they are asked for
-  (void)estimate(scene.frame(), &tensors);
+  (void)estimate(scene.frame(), &tensors, estimator::Budget(config.budget_ms));
 }
 
 /// The model's predictions. Where the device was left to us, a lost one is replaced by the CPU.
@@ -250,13 +253,14 @@ std::vector<int> Estimator::Impl::assign(
   return estimator::assign_draws(count, margin, config.draws);
 }
 
-Result<Estimate> Estimator::Impl::estimate(const Frame& frame, Tensors* tensors) {
+Result<Estimate> Estimator::Impl::estimate(const Frame& frame, Tensors* tensors,
+                                           const estimator::Budget& budget,
+                                           const path::Traversals* traced) {
   if (auto valid = validate(frame); !valid) return valid.error();
-  const estimator::Budget budget(config.budget_ms);
   Timings timings;
   estimator::Stopwatch total;
-  const auto conditions =
-      estimator::gather(frame, config.rope_length_m, prior_kind(), timings);  // Sec. 3.2, 3.3
+  const auto conditions = estimator::gather(frame, config.rope_length_m, prior_kind(), timings,
+                                            traced);  // Sec. 3.2, 3.3
   estimator::Stopwatch stage;
   if (!conditions) return conditions.error();
   estimator::Rereading rereading(pool, readings(*conditions, frame), field ? &*field : nullptr,
@@ -337,18 +341,36 @@ Result<Estimator> Estimator::create(const Config& config) {
   });
 }
 
+Result<void> Estimator::usable() const {
+  if (!impl_) {
+    return Error{ErrorCode::kBadInput,
+                 "Estimator: expected one in use, got one that was moved from; make a new one"};
+  }
+  if (impl_->process != ::getpid()) {
+    return Error{ErrorCode::kDeviceLost,
+                 "Estimator: expected the process that made it, got one forked from there, "
+                 "without its threads and device; make a new one"};
+  }
+  return {};
+}
+
 Result<Estimate> Estimator::estimate(const Frame& frame, Tensors* tensors) {
   return guard::guarded("Estimator::estimate", [&]() -> Result<Estimate> {
-    if (!impl_) {
-      return Error{ErrorCode::kBadInput,
-                   "Estimator: expected one in use, got one that was moved from; make a new one"};
-    }
-    if (impl_->process != ::getpid()) {
-      return Error{ErrorCode::kDeviceLost,
-                   "Estimator: expected the process that made it, got one forked from there, "
-                   "without its threads and device; make a new one"};
-    }
-    return impl_->estimate(frame, tensors);
+    if (auto fine = usable(); !fine) return fine.error();
+    return impl_->estimate(frame, tensors, estimator::Budget(impl_->config.budget_ms));
+  });
+}
+
+Result<Ropes> Estimator::estimate_ropes(const Frame& frame) {
+  return guard::guarded("Estimator::estimate_ropes", [&]() -> Result<Ropes> {
+    if (auto fine = usable(); !fine) return fine.error();
+    if (auto valid = validate(frame); !valid) return valid.error();
+    const estimator::Budget budget(impl_->config.budget_ms);
+    return estimator::estimate_each(
+        frame, impl_->config.ropes,
+        [&](const Frame& view, const path::Traversals* traced, double share) {
+          return impl_->estimate(view, nullptr, budget.part(share), traced);
+        });
   });
 }
 

@@ -41,6 +41,7 @@ Evidence judge(const path::Path& path, float rope_width_px, const prior::Prior* 
   evidence.hidden_ends = path.hidden_ends;
   evidence.buried_ends = path.buried_ends;
   evidence.ring = path.ring;
+  evidence.closed = path.closed;
   if (refined == nullptr) return evidence;
   evidence.tube = view.score(refined->nodes, view.radius_m(refined->nodes));
   const auto supported =

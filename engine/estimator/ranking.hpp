@@ -19,6 +19,7 @@ struct Evidence {
   float hidden_ends = 0;    ///< [0, 1] half for each tip where an occluder begins
   float buried_ends = 0;    ///< [0, 1] half for each end on another strand
   bool ring = false;        ///< closed: its ends are a guess
+  bool closed = false;      ///< and nothing shows any
   float length_widths = 0;  ///< [0, 999] of the path, in rope widths
 };
 

@@ -70,6 +70,9 @@ Result<void> checked(const Frame& frame) {
   if (!frame.color_bgr.empty()) {
     check_count("color_bgr", frame.color_bgr.size(), frame, 3, faults);
   }
+  if (!frame.instances.empty()) {
+    check_count("instances", frame.instances.size(), frame, 1, faults);
+  }
   if (!faults.empty()) return faults.error();
   return {};
 }

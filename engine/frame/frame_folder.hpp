@@ -13,8 +13,8 @@ namespace flowdlo::frame {
 /// Without this file a folder is no frame: it goes first and comes last.
 inline constexpr const char* kKeyFile = "camera.json";
 
-inline constexpr std::array<const char*, 5> kFrameFiles = {kKeyFile, "depth.png", "mask.png",
-                                                           "color.png", "truth.csv"};
+inline constexpr std::array<const char*, 6> kFrameFiles = {
+    kKeyFile, "depth.png", "mask.png", "color.png", "truth.csv", "instances.png"};
 
 /// load_frame_folder() and save_frame_folder().
 [[nodiscard]] Result<FrameFolder> load_folder(const std::filesystem::path& folder,

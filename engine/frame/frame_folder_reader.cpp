@@ -33,9 +33,10 @@ constexpr std::size_t kMaxTextBytes = std::size_t{1} << 20;
 /// What the files say, before they are held against each other. Empty images: absent or faulty.
 struct Files {
   CameraFile camera;
-  cv::Mat depth;  // CV_16UC1
-  cv::Mat mask;   // CV_8UC1
-  cv::Mat color;  // CV_8UC3
+  cv::Mat depth;      // CV_16UC1
+  cv::Mat mask;       // CV_8UC1
+  cv::Mat color;      // CV_8UC3
+  cv::Mat instances;  // CV_16UC1
 };
 
 bool is_there(const fs::path& file) {
@@ -154,6 +155,21 @@ cv::Mat load_color(const Source& source, Faults& faults) {
   return bgr;
 }
 
+cv::Mat load_instances(const Source& source, Faults& faults) {
+  if (!source.is_there()) return {};  // the mask may be one rope, or nobody knows which is which
+  cv::Mat labels = load_png(source, faults);
+  if (labels.empty()) return {};
+  if (labels.channels() != 1) {
+    faults.bad_input(
+        fmt::format("{}: expected one channel of 8 or 16 bits, got {}; write each rope's number, 0 "
+                    "where there is none",
+                    source.who, described(labels)));
+    return {};
+  }
+  labels.convertTo(labels, CV_16U);
+  return labels;
+}
+
 void check_size(const fs::path& file, const cv::Mat& image, const char* other, int width,
                 int height, Faults& faults) {
   if (image.empty() || (image.cols == width && image.rows == height)) return;
@@ -162,7 +178,7 @@ void check_size(const fs::path& file, const cv::Mat& image, const char* other, i
 }
 
 void check_sizes(const fs::path& folder, Files& files, Faults& faults) {
-  auto& [camera, depth, mask, color] = files;
+  auto& [camera, depth, mask, color, instances] = files;
   const char* reference = "camera.json";
   if (camera.width == 0 || camera.height == 0) {
     const bool from_depth = !depth.empty();
@@ -174,6 +190,7 @@ void check_sizes(const fs::path& folder, Files& files, Faults& faults) {
   check_size(folder / "depth.png", depth, reference, camera.width, camera.height, faults);
   check_size(folder / "mask.png", mask, reference, camera.width, camera.height, faults);
   check_size(folder / "color.png", color, reference, camera.width, camera.height, faults);
+  check_size(folder / "instances.png", instances, reference, camera.width, camera.height, faults);
 }
 
 std::optional<Centerline> load_truth(const Source& source, Faults& faults) {
@@ -190,6 +207,11 @@ std::vector<std::uint8_t> bytes_of(const cv::Mat& image) {
   if (image.empty()) return {};
   const cv::Mat packed = image.isContinuous() ? image : image.clone();
   return {packed.datastart, packed.datastart + packed.total() * packed.elemSize()};
+}
+
+std::vector<std::uint16_t> labels_of(const cv::Mat& instances) {
+  if (instances.empty()) return {};
+  return {instances.begin<std::uint16_t>(), instances.end<std::uint16_t>()};
 }
 
 std::vector<float> metres_of(const cv::Mat& depth, double scale_m) {
@@ -224,6 +246,7 @@ Result<FrameFolder> frame::load_folder(const fs::path& folder, const files::Syst
   files.mask = load_mask(source(2), faults);
   files.color = load_color(source(3), faults);
   auto truth = load_truth(source(4), faults);
+  files.instances = load_instances(source(5), faults);
   check_sizes(folder, files, faults);
   if (!faults.empty()) return faults.error();
 
@@ -234,7 +257,8 @@ Result<FrameFolder> frame::load_folder(const fs::path& folder, const files::Syst
                      metres_of(files.depth, files.camera.depth_scale_m),
                      bytes_of(files.mask),
                      bytes_of(files.color),
-                     truth};
+                     truth,
+                     labels_of(files.instances)};
   if (const auto valid = validate(loaded.frame()); !valid) return valid.error();
   return loaded;
 }

@@ -51,7 +51,7 @@ cv::Mat mat_over(std::span<const Pixel> pixels, const Frame& frame, int type) {
   return {frame.height, frame.width, type, const_cast<Pixel*>(pixels.data())};
 }
 
-// A frame must not keep the colour or the truth of the one that stood here before.
+// A frame must not keep the colour, the labels or the truth of the one that stood here before.
 Result<void> put_all(files::FolderUpdate& update, const Frame& frame, double depth_scale_m,
                      const Centerline* truth, const cv::Mat& units) {
   if (auto done = put_png(update, "depth.png", units); !done) return done;
@@ -62,6 +62,12 @@ Result<void> put_all(files::FolderUpdate& update, const Frame& frame, double dep
   } else {
     const auto color = mat_over(frame.color_bgr, frame, CV_8UC3);
     if (auto done = put_png(update, "color.png", color); !done) return done;
+  }
+  if (frame.instances.empty()) {
+    update.remove("instances.png");
+  } else {
+    const auto instances = mat_over(frame.instances, frame, CV_16UC1);
+    if (auto done = put_png(update, "instances.png", instances); !done) return done;
   }
   if (truth == nullptr) {
     update.remove("truth.csv");

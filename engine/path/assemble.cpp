@@ -236,7 +236,7 @@ Path assemble(const Traversal& traversal, const Strands& strands, const Region& 
   Drawn drawn;
   const StrandEnd& first = strands.end(traversal.enters.front());
   const StrandEnd& last = strands.end(traversal.enters.back() ^ 1);
-  if (!first.tip()) {
+  if (!first.tip() && !traversal.closed) {
     const Points out = run_out(first, region.mask, strands.width_px);
     for (auto it = out.rbegin(); it != out.rend(); ++it) drawn.add(*it, false);
   }
@@ -249,7 +249,10 @@ Path assemble(const Traversal& traversal, const Strands& strands, const Region& 
     if (enter % 2 == 1) std::reverse(points.begin(), points.end());
     for (const Vector2f& p : points) drawn.add(p, false);
   }
-  if (!last.tip()) {
+  if (traversal.closed && traversal.enters.size() > 0 &&
+      !strands.list[traversal.enters.front() / 2].ring) {
+    draw_bond(strands, region, cover, traversal.enters.back() ^ 1, traversal.enters.front(), drawn);
+  } else if (!last.tip()) {
     for (const Vector2f& p : run_out(last, region.mask, strands.width_px)) drawn.add(p, false);
   }
   drawn = resampled(drawn);
@@ -257,7 +260,10 @@ Path assemble(const Traversal& traversal, const Strands& strands, const Region& 
   drawn.points = smoothed(std::move(drawn.points), half);
   Path path = to_image(resampled(drawn), region, frame);
   path.score = -static_cast<double>(traversal.cost);
-  path.ring = strands.list[traversal.enters.front() / 2].ring;
+  const Strand& one = strands.list[traversal.enters.front() / 2];
+  path.ring = one.ring || traversal.closed;
+  path.closed = traversal.closed || (one.ring && !one.opened);
+  if (traversal.closed) return path;
   for (const StrandEnd* end : {&first, &last}) {
     path.hidden_ends += end->tip() && end->cut ? 0.5F : 0;
     path.buried_ends += end->tip() ? 0 : 0.5F;

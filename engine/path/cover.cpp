@@ -51,7 +51,16 @@ float Cover::margin_m(float rope_m) const {
   return kMarginNoise_m + kMarginRadii * radius_m;
 }
 
+bool Cover::other_rope(const Vector2f& p) const {
+  if (frame_.instances.empty() || masked(p)) return false;
+  const int u = geometry::nearest_px(p.x()) + region_.offset_px.x;
+  const int v = geometry::nearest_px(p.y()) + region_.offset_px.y;
+  if (u < 0 || v < 0 || u >= frame_.width || v >= frame_.height) return false;
+  return frame_.instances[static_cast<std::size_t>(v) * frame_.width + u] != 0;
+}
+
 Sight Cover::at(const Vector2f& p, float rope_m) const {
+  if (other_rope(p)) return Sight::kHidden;
   if (rope_m <= 0) return Sight::kUnknown;
   const float z = depth_around(p, false);
   if (z <= 0) return Sight::kUnknown;

@@ -38,6 +38,8 @@ class Cover {
  private:
   // Median depth of the pixels around `p` that are on the mask, or that are not.
   [[nodiscard]] float depth_around(const Eigen::Vector2f& p, bool on_mask) const;
+  // Whether a label says that another rope is there.
+  [[nodiscard]] bool other_rope(const Eigen::Vector2f& p) const;
   // How much nearer or farther than the rope something must be to tell.
   [[nodiscard]] float margin_m(float rope_m) const;
   [[nodiscard]] bool rises_to(const Eigen::Vector2f& edge, const Eigen::Vector2f& direction,

@@ -24,9 +24,11 @@ Magnified::Magnified(const Frame& frame, const Region& region, int times)
   region_.offset_px = times * (region.offset_px - window_.part.tl());
   depth_m_ = times_larger(depth_in(frame, window_.part), times);
   mask_ = times_larger(mask_in(frame, window_.part), times);
+  if (frame.instances.empty()) return;
+  instances_ = times_larger(instances_in(frame, window_.part), times);
 }
 
-Frame Magnified::frame() const { return frame_of(mask_, depth_m_, camera_); }
+Frame Magnified::frame() const { return frame_of(mask_, depth_m_, instances_, camera_); }
 
 std::vector<std::vector<Eigen::Vector2f>> Magnified::enlarged(
     std::vector<std::vector<Eigen::Vector2f>> lines) const {
@@ -38,5 +40,7 @@ std::vector<std::vector<Eigen::Vector2f>> Magnified::enlarged(
 }
 
 void Magnified::shrink(Traversals& traversals) const { window_.restore(traversals, original_); }
+
+void Magnified::shrink(RopePaths& paths) const { window_.restore(paths, original_); }
 
 }  // namespace flowdlo::path

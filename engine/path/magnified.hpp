@@ -28,6 +28,7 @@ class Magnified {
 
   /// Brings what was traced in the magnified frame back to the pixels of the original.
   void shrink(Traversals& traversals) const;
+  void shrink(RopePaths& paths) const;
 
  private:
   Window window_;
@@ -36,6 +37,7 @@ class Magnified {
   Region region_;
   cv::Mat depth_m_;
   cv::Mat mask_;
+  cv::Mat instances_;
 };
 
 }  // namespace flowdlo::path

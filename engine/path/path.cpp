@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
 #include <opencv2/core.hpp>
 #include <string>
+#include <utility>
 
 #include "guard/guarded.hpp"
 #include "path/cover.hpp"
@@ -17,6 +19,7 @@
 #include "path/reduced.hpp"
 #include "path/region.hpp"
 #include "path/rings.hpp"
+#include "path/rope_paths.hpp"
 #include "path/strands.hpp"
 #include "path/thinning.hpp"
 
@@ -66,27 +69,33 @@ Result<Graph> graph_of(Region& region) {
                            kMostSegments, alive(graph))};
 }
 
-Result<Traversals> trace_graph(Graph& graph, const Region& region, const Frame& frame,
-                               const TraceConfig& config) {
+// `Answer` is what `read` makes of strands: Traversals or RopePaths.
+template <class Answer>
+using Read = std::function<Result<Answer>(const Strands&, const Region&, const Frame&)>;
+
+template <class Answer>
+Result<Answer> trace_graph(Graph& graph, const Region& region, const Frame& frame,
+                           const Read<Answer>& read) {
   split_at_hidden_forks(graph, Cover(region, frame, graph.width_px));
   open_rings(graph, region);
-  return rank(make_strands(graph, region, frame), region, frame, config);
+  return read(make_strands(graph, region, frame), region, frame);
 }
 
-// The traversals of a mask whose doubles are cut apart; magnified, where the strands are too thin
+// The answer for a mask whose doubles are cut apart; magnified, where the strands are too thin
 // for a cut a pixel wide.
-Result<Traversals> trace_parted(const Region& region, const Doubles& doubles, const Frame& frame,
-                                const TraceConfig& config) {
+template <class Answer>
+Result<Answer> trace_parted(const Region& region, const Doubles& doubles, const Frame& frame,
+                            const Read<Answer>& read) {
   const bool large = region.mask.total() * kMagnified * kMagnified > kMostMagnifiedPixels;
   if (doubles.width_px >= kThinDoublePx || large) {
     const Region parted = cut(region, doubles.lines);
     Graph graph = make_graph(thin(parted.mask), parted);
-    return trace_graph(graph, parted, frame, config);
+    return trace_graph(graph, parted, frame, read);
   }
   const Magnified magnified(frame, region, kMagnified);
   const Region parted = cut(magnified.region(), magnified.enlarged(doubles.lines));
   Graph graph = make_graph(thin(parted.mask), parted);
-  auto result = trace_graph(graph, parted, magnified.frame(), config);
+  auto result = trace_graph(graph, parted, magnified.frame(), read);
   if (result) magnified.shrink(*result);
   return result;
 }
@@ -109,24 +118,35 @@ Traversals merged(Traversals parted, const Traversals& whole, const TraceConfig&
   return parted;
 }
 
-Result<Traversals> trace_region(const Frame& frame, const TraceConfig& config) {
+// The better of both. What is wide all along is two strands where there is one rope; where there
+// are several it may as well be a thicker one.
+RopePaths better(RopePaths parted, RopePaths whole, int ropes) {
+  const double lead = parted.ropes.front().score - whole.ropes.front().score;
+  return lead < (ropes == 1 ? -kLeftOut : kLeftOut) ? std::move(whole) : std::move(parted);
+}
+
+template <class Answer, class Join>
+Result<Answer> trace_region(const Frame& frame, const Read<Answer>& read, const Join& join) {
   auto region = clean(frame);
   if (!region) return region.error();
   auto graph = graph_of(*region);
   if (!graph) return graph.error();
   const Doubles doubles = find_doubles(*graph, *region, frame);
-  auto whole = trace_graph(*graph, *region, frame, config);
+  auto whole = trace_graph(*graph, *region, frame, read);
   if (doubles.lines.empty() || !whole) return whole;
-  auto parted = trace_parted(*region, doubles, frame, config);
+  auto parted = trace_parted(*region, doubles, frame, read);
   if (!parted) return whole;
-  return merged(*std::move(parted), *whole, config);
+  return join(*std::move(parted), *std::move(whole));
 }
 
-// The traversals of a mask that is too large to be traced as it is.
-Result<Traversals> trace_reduced(const Frame& frame, const cv::Rect& box, int times,
-                                 const TraceConfig& config) {
+// The answer for a mask; one that is too large to be traced as it is, is traced reduced.
+template <class Answer, class Join>
+Result<Answer> trace_mask(const Frame& frame, const Read<Answer>& read, const Join& join) {
+  const cv::Rect box = bounding_box(frame);
+  const int times = reduction_of(box);
+  if (times == 1) return trace_region(frame, read, join);
   const Reduced reduced(frame, box, times);
-  auto result = trace_region(reduced.frame(), config);
+  auto result = trace_region(reduced.frame(), read, join);
   if (result) reduced.enlarge(*result);
   return result;
 }
@@ -134,10 +154,26 @@ Result<Traversals> trace_reduced(const Frame& frame, const cv::Rect& box, int ti
 }  // namespace
 
 Result<Traversals> trace(const Frame& frame, const TraceConfig& config) {
+  const Read<Traversals> read = [&](const Strands& strands, const Region& region,
+                                    const Frame& seen) {
+    return rank(strands, region, seen, config);
+  };
   return guard::guarded("path", [&] {
-    const cv::Rect box = bounding_box(frame);
-    const int times = reduction_of(box);
-    return times == 1 ? trace_region(frame, config) : trace_reduced(frame, box, times, config);
+    return trace_mask(frame, read, [&](Traversals parted, const Traversals& whole) {
+      return merged(std::move(parted), whole, config);
+    });
+  });
+}
+
+Result<RopePaths> trace_ropes(const Frame& frame, int ropes) {
+  const Read<RopePaths> read = [&](const Strands& strands, const Region& region,
+                                   const Frame& seen) {
+    return rope_paths(strands, region, seen, ropes);
+  };
+  return guard::guarded("path", [&] {
+    return trace_mask(frame, read, [&](RopePaths parted, RopePaths whole) {
+      return better(std::move(parted), std::move(whole), ropes);
+    });
   });
 }
 

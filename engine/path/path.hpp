@@ -16,6 +16,7 @@ struct Path {
   std::vector<Eigen::Vector2f> points_px;  ///< [M, 2] (u, v), consecutive ones distinct, M >= 2
   std::vector<std::uint8_t> bridged;       ///< [M] 1 where the sample lies on a link over a gap
   bool ring = false;                       ///< closed: where it begins and ends is a guess
+  bool closed = false;                     ///< and nothing shows where: a rope without ends
   float hidden_ends = 0;                   ///< [0, 1] half for each tip where an occluder begins
   float buried_ends = 0;                   ///< [0, 1] half for each end on another strand
   float width_px = 0;                      ///< of the rope, as the mask was read for this one
@@ -36,8 +37,23 @@ struct TraceConfig {
   double rope_length_m = 0;  ///< known length; 0: unknown
 };
 
+/// The ropes of one mask, each as one path.
+struct RopePaths {
+  std::vector<Path> ropes;  ///< never empty; `score` is the set's
+  std::vector<float> lead;  ///< [ropes] by how much any set without that rope costs more
+  float rope_width_px = 0;  ///< median width of the mask across the skeleton
+};
+
+/// Costs by which a set of ropes may trail another one to be told of in RopePaths::lead.
+inline constexpr float kMostLead = 6;
+
 /// Mask (and depth, where there is any) to ordered paths. Expects a valid frame. Fails with
 /// kNoPath, saying why, when the mask holds no stroke a rope could have drawn.
 [[nodiscard]] Result<Traversals> trace(const Frame& frame, const TraceConfig& config = {});
+
+/// The cheapest set of ropes that explains the mask: so many, or, with 0, as many as cost least.
+/// Expects a valid frame and `ropes` in 0..kMostRopes. Fails as `trace` does, and with kNoPath
+/// where the mask cannot be that many ropes, or only more than kMostRopes.
+[[nodiscard]] Result<RopePaths> trace_ropes(const Frame& frame, int ropes);
 
 }  // namespace flowdlo::path

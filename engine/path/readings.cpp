@@ -127,8 +127,13 @@ Result<Traversals> trace_reread(Reading reading, const Frame& frame, float rope_
     return result;
   }
   const Reread reread = reread_as(reading, frame, box, rope_width_px);
-  auto result =
-      trace(frame_of(reread.mask, reread.depth_m, reread.window.camera(frame.intrinsics)), config);
+  cv::Mat instances = instances_in(frame, reread.window.part);
+  if (!instances.empty()) {
+    cv::resize(instances, instances, reread.mask.size(), 0, 0, cv::INTER_NEAREST);
+  }
+  auto result = trace(
+      frame_of(reread.mask, reread.depth_m, instances, reread.window.camera(frame.intrinsics)),
+      config);
   if (!result) return result;
   reread.window.restore(*result, {frame.width, frame.height});
   const auto as_given = [&](float width_px) {

@@ -31,10 +31,14 @@ Reduced::Reduced(const Frame& frame, const cv::Rect& box, int times)
   cv::resize(mask_, mask_, size, 0, 0, cv::INTER_AREA);
   cv::threshold(mask_, mask_, 127, 255, cv::THRESH_BINARY);
   cv::resize(depth_in(frame, part), depth_m_, size, 0, 0, cv::INTER_NEAREST);
+  if (frame.instances.empty()) return;
+  cv::resize(instances_in(frame, part), instances_, size, 0, 0, cv::INTER_NEAREST);
 }
 
-Frame Reduced::frame() const { return frame_of(mask_, depth_m_, camera_); }
+Frame Reduced::frame() const { return frame_of(mask_, depth_m_, instances_, camera_); }
 
 void Reduced::enlarge(Traversals& traversals) const { window_.restore(traversals, original_); }
+
+void Reduced::enlarge(RopePaths& paths) const { window_.restore(paths, original_); }
 
 }  // namespace flowdlo::path

@@ -24,6 +24,7 @@ class Reduced {
 
   /// Brings what was traced in the reduced frame back to the pixels of the original.
   void enlarge(Traversals& traversals) const;
+  void enlarge(RopePaths& paths) const;
 
  private:
   Window window_;
@@ -31,6 +32,7 @@ class Reduced {
   Intrinsics camera_;
   cv::Mat depth_m_;
   cv::Mat mask_;
+  cv::Mat instances_;
 };
 
 }  // namespace flowdlo::path

@@ -192,9 +192,11 @@ void open_rings(Graph& graph, const Region& region) {
     if (const auto ends = ends_beside(ring)) {
       segment.points_px = passed_twice(ring, *ends);
       segment.length_px = length_of(segment.points_px);
+      segment.opened = true;
     } else if (const auto at = notch(ring)) {
       std::rotate(segment.points_px.begin(), segment.points_px.begin() + *at,
                   segment.points_px.end());
+      segment.opened = true;
     }
   }
 }

@@ -7,13 +7,11 @@
 #include <unordered_map>
 #include <utility>
 
+#include "path/walk_costs.hpp"
+
 namespace flowdlo::path {
 namespace {
 
-constexpr float kEndAtCrossing = 1.5F;  // an end that lies on another strand
-constexpr float kEndAtCut = 1.0F;       // an end where an occluder begins
-constexpr float kLooseTip = 1.0F;       // a branch left out though it ends in a tip
-constexpr float kMinorWidths = 1.5F;    // strands below this do not make traversals distinct
 constexpr std::uint64_t kMix = 0x9E3779B97F4A7C15ULL;
 constexpr std::size_t kMostStates = 24000;
 constexpr std::size_t kBeamWidth = 24;
@@ -38,10 +36,7 @@ class Searcher {
     uncovered_.resize(n);
     bound_.resize(n);
     for (std::size_t s = 0; s < n; ++s) {
-      const Strand& strand = strands.list[s];
-      uncovered_[s] = kLeftOutCost * strand.covers_px / strands.scale_px;
-      const bool loose = strand.ends[0].tip() != strand.ends[1].tip();
-      if (loose) uncovered_[s] += kLooseTip;
+      uncovered_[s] = left_out_cost(strands.list[s], strands.scale_px);
       bound_[s] = uncovered_[s];
       for (int side = 0; side < 2; ++side) {
         const auto& list = bonds[2 * s + side];
@@ -73,10 +68,7 @@ class Searcher {
     visits_.clear();
   }
 
-  [[nodiscard]] float stop_cost(int end) const {
-    if (!strands_.end(end).tip()) return kEndAtCrossing;
-    return strands_.end(end).cut ? kEndAtCut : strands_.end(end).end_cost;
-  }
+  [[nodiscard]] float stop_cost(int end) const { return path::stop_cost(strands_.end(end)); }
   [[nodiscard]] float goal_cost(const State& state) const {
     return state.paid + stop_cost(state.enter ^ 1) + state.left;
   }

@@ -12,6 +12,7 @@ namespace flowdlo::path {
 struct Traversal {
   std::vector<int> enters;  ///< the end by which each strand is entered, in order
   float cost = 0;
+  bool closed = false;  ///< from the last strand on to the first one: a ring
 };
 
 /// At most `count` distinct traversals, cheapest first; a traversal and its reverse are one.

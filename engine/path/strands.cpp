@@ -167,6 +167,7 @@ Strand make_strand(const Segment& segment, const Graph& graph, const Crossings& 
   const Cover cover(region, frame, sizes.width_px);
   Strand strand;
   strand.ring = segment.ring();
+  strand.opened = segment.opened;
   strand.covers_px = segment.length_px;
   const int half = std::clamp(static_cast<int>(std::lround(0.3F * sizes.width_px)), 1, 8);
   Points points = segment.points_px;

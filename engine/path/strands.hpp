@@ -34,6 +34,7 @@ struct Strand {
   std::array<StrandEnd, 2> ends;
   float covers_px = 0;   ///< length that a path wins by using it
   bool ring = false;     ///< closed: no tips, and nothing can be linked to it
+  bool opened = false;   ///< a ring, but its rope's ends show where it begins
   bool folding = false;  ///< from a fork of three to a tip where the rope may turn back
   bool doubled = false;  ///< between crossings and too wide for one rope: a second one lies on it
 };

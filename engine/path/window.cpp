@@ -60,17 +60,24 @@ Intrinsics Window::camera(const Intrinsics& frame) const {
   return {frame.fx * scale, frame.fy * scale, moved(frame.cx, part.x), moved(frame.cy, part.y)};
 }
 
-void Window::restore(Traversals& traversals, const cv::Size& frame) const {
+void Window::restore(Path& path, const cv::Size& frame) const {
   const Vector2f first{static_cast<float>(part.x), static_cast<float>(part.y)};
   const Vector2f last{static_cast<float>(frame.width - 1), static_cast<float>(frame.height - 1)};
-  traversals.rope_width_px /= scale;
-  for (Path& path : traversals.ranked) {
-    path.width_px /= scale;
-    for (Vector2f& p : path.points_px) {
-      p = ((p + kHalf) / scale - kHalf + first).cwiseMax(Vector2f::Zero()).cwiseMin(last);
-    }
-    path = respaced(path, 1 / scale);
+  path.width_px /= scale;
+  for (Vector2f& p : path.points_px) {
+    p = ((p + kHalf) / scale - kHalf + first).cwiseMax(Vector2f::Zero()).cwiseMin(last);
   }
+  path = respaced(path, 1 / scale);
+}
+
+void Window::restore(Traversals& traversals, const cv::Size& frame) const {
+  traversals.rope_width_px /= scale;
+  for (Path& path : traversals.ranked) restore(path, frame);
+}
+
+void Window::restore(RopePaths& paths, const cv::Size& frame) const {
+  paths.rope_width_px /= scale;
+  for (Path& path : paths.ropes) restore(path, frame);
 }
 
 cv::Mat mask_in(const Frame& frame, const cv::Rect& part) {
@@ -81,13 +88,21 @@ cv::Mat depth_in(const Frame& frame, const cv::Rect& part) {
   return copied(frame.depth_m, frame.width, part, CV_32F);
 }
 
-Frame frame_of(const cv::Mat& mask, const cv::Mat& depth_m, const Intrinsics& camera) {
-  return {mask.cols,
-          mask.rows,
-          camera,
-          {depth_m.ptr<float>(), depth_m.total()},
-          {mask.ptr<std::uint8_t>(), mask.total()},
-          {}};
+cv::Mat instances_in(const Frame& frame, const cv::Rect& part) {
+  if (frame.instances.empty()) return {};
+  return copied(frame.instances, frame.width, part, CV_16U);
+}
+
+Frame frame_of(const cv::Mat& mask, const cv::Mat& depth_m, const cv::Mat& instances,
+               const Intrinsics& camera) {
+  Frame frame{mask.cols,
+              mask.rows,
+              camera,
+              {depth_m.ptr<float>(), depth_m.total()},
+              {mask.ptr<std::uint8_t>(), mask.total()},
+              {}};
+  if (!instances.empty()) frame.instances = {instances.ptr<std::uint16_t>(), instances.total()};
+  return frame;
 }
 
 cv::Rect widened(const cv::Rect& box, int around_px, const cv::Size& frame) {

@@ -35,6 +35,9 @@ enum class Quality {
   kFast,  ///< the K and D that, measured, lose nothing: the weights' metadata hold them
 };
 
+/// Most ropes of one frame that are told apart.
+inline constexpr int kMostRopes = 32;
+
 struct Config {
   /// A .fdw file. Empty: `share/flowdlo/flowdlo.fdw` beside the library's installation.
   std::filesystem::path weights;
@@ -52,6 +55,9 @@ struct Config {
   GateChoice gate = GateChoice::kOfWeights;
   FieldChoice field = FieldChoice::kBeside;
   std::filesystem::path field_weights{};  ///< .safetensors; empty: beside `weights`, if there
+  /// How many ropes Estimator::estimate_ropes looks for where no Frame::instances tell; 0: as many
+  /// as the mask shows, 1..kMostRopes: so many. Estimator::estimate answers one, whatever this is.
+  int ropes = 1;
   double rope_length_m = 0;  ///< of the whole rope, where known; 0: unknown. Helps at crossings.
   int threads = 0;           ///< of the CPU back end; 0: one for each core
 

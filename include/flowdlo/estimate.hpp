@@ -90,6 +90,7 @@ struct Estimate {
   /// another way through the mask, or a mask that hides the way, has to be reckoned with.
   /// A doubt about the mask (`one_rope`) leaves at most 0.25 of it.
   float confidence = 0;
+  bool closed = false;  ///< a ring without ends: node 63 lies next to node 0
   OneRope one_rope;
   std::vector<LeftOut> left_out;          ///< for want of time; empty without Config::budget_ms
   float mask_agreement = 0;               ///< S_M of `nodes`, Eq. (3.32), in [0, 1]
@@ -97,6 +98,25 @@ struct Estimate {
   std::vector<DrawReport> draws;          ///< one for each draw
   std::vector<Alternative> alternatives;  ///< best first; may be empty
   Timings timings;
+};
+
+/// Where one rope passes over another, or over itself, in the image.
+struct RopeCrossing {
+  int over = 0;          ///< index in Ropes::ropes of the one nearer to the camera
+  int under = 0;         ///< and of the other; the same where a rope passes over itself
+  float over_at_m = 0;   ///< arclength from node 0 of `over`, metres
+  float under_at_m = 0;  ///< arclength from node 0 of `under`, metres
+  float apart_m = 0;     ///< by how much the one is nearer than the other along the ray, metres
+};
+
+/// What a caller gets for one frame of several ropes.
+struct Ropes {
+  std::vector<Estimate> ropes;          ///< longest first; never empty
+  std::vector<RopeCrossing> crossings;  ///< by `over`, then `over_at_m`
+  /// [height, width] which of `ropes` a pixel of the mask was given to, from 1; 0: none.
+  std::vector<std::uint16_t> instances;
+  double parting_ms = 0;  ///< telling the ropes apart
+  double total_ms = 0;
 };
 
 /// What the strand field says of the part of a frame around the mask; docs/field.md.

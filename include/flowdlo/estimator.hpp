@@ -29,6 +29,12 @@ class FLOWDLO_EXPORT Estimator {
   /// The same, and copies every tensor of spec section 3 (`--tensors`) to `tensors`.
   [[nodiscard]] Result<Estimate> estimate(const Frame& frame, Tensors& tensors);
 
+  /// Each rope of the frame on its own: Config::ropes of them, or one for each label that
+  /// Frame::instances has on the mask. Takes as long as estimate() for each. With Config::ropes = 1
+  /// and no labels the one rope is that of estimate(). Fails as estimate() does, and with kNoPath
+  /// where there are more than kMostRopes, or fewer than asked for.
+  [[nodiscard]] Result<Ropes> estimate_ropes(const Frame& frame);
+
   /// "cpu", or the name of the Vulkan device in use. Moved from: empty.
   [[nodiscard]] const std::string& device() const;
 
@@ -49,6 +55,7 @@ class FLOWDLO_EXPORT Estimator {
   };
   FLOWDLO_HIDDEN explicit Estimator(std::unique_ptr<Impl> impl);
   FLOWDLO_HIDDEN Result<Estimate> estimate(const Frame& frame, Tensors* tensors);
+  FLOWDLO_HIDDEN [[nodiscard]] Result<void> usable() const;
   std::unique_ptr<Impl, LetGo> impl_;
 };
 

@@ -1,4 +1,4 @@
-// Frame: one RGB-D observation of one rope, as views into the caller's memory.
+// Frame: one RGB-D observation of a rope, or of several, as views into the caller's memory.
 #pragma once
 
 #include <cstdint>
@@ -24,8 +24,11 @@ struct Frame {
   int height = 0;  ///< pixels, 1..4096
   Intrinsics intrinsics;
   std::span<const float> depth_m;      ///< [height, width] z-depth, metres; 0 or not finite: none
-  std::span<const std::uint8_t> mask;  ///< [height, width] the rope where > 127
+  std::span<const std::uint8_t> mask;  ///< [height, width] the rope, or the ropes, where > 127
   std::span<const std::uint8_t> color_bgr;  ///< [height, width, 3], or empty: not needed
+  /// [height, width] which rope the mask shows, 1..65535, 0: none or unknown; or empty: unknown.
+  /// Of one rope, every other label is a thing that may hide it; only the mask's pixels are ropes.
+  std::span<const std::uint16_t> instances{};
 };
 
 /// Succeeds when sizes fit and the intrinsics are usable; otherwise kBadInput with every fault.

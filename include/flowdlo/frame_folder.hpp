@@ -1,4 +1,4 @@
-// FrameFolder: a frame on disk (color.png, depth.png, mask.png, camera.json).
+// FrameFolder: a frame on disk (color.png, depth.png, mask.png, instances.png, camera.json).
 #pragma once
 
 #include <cstdint>
@@ -24,17 +24,19 @@ struct FrameFolder {
   std::vector<float> depth_m;
   std::vector<std::uint8_t> mask;
   std::vector<std::uint8_t> color_bgr;
-  std::optional<Centerline> truth;  ///< truth.csv, when present
+  std::optional<Centerline> truth;         ///< truth.csv, when present
+  std::vector<std::uint16_t> instances{};  ///< instances.png, when present
 
   /// Views into this object: keep it alive while the frame is used.
   [[nodiscard]] Frame frame() const {
-    return {width, height, intrinsics, depth_m, mask, color_bgr};
+    return {width, height, intrinsics, depth_m, mask, color_bgr, instances};
   }
 };
 
 /// Reads `folder`. camera.json may be our own form, BOP's (cam_K, depth_scale in mm) or Open3D's
-/// (intrinsic_matrix, column-major; depth_scale 0.001 when it has none). color.png and truth.csv
-/// may be absent; of a coloured mask.png the largest channel counts. Fails with kIo or kBadInput,
+/// (intrinsic_matrix, column-major; depth_scale 0.001 when it has none). color.png, truth.csv
+/// and instances.png (8 or 16 bits, one channel) may be absent; of a coloured mask.png the largest
+/// channel counts. Fails with kIo or kBadInput,
 /// naming the file and the remedy; every fault found is listed. Beside a save_frame_folder(), or
 /// after one that was cut off, it is all of the earlier frame or all of the later one.
 [[nodiscard]] FLOWDLO_EXPORT Result<FrameFolder> load_frame_folder(

@@ -9,11 +9,6 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-struct Mark {
-  Vector2d point_px;
-  double tolerance_px;
-};
-
 Vector2d project(const Intrinsics& camera, const Vector3d& p) {
   return {camera.fx * p.x() / p.z() + camera.cx, camera.fy * p.y() / p.z() + camera.cy};
 }
@@ -33,7 +28,9 @@ std::vector<Mark> marks_of(const Scene& scene) {
   return marks;
 }
 
-bool walk(const std::vector<Vector2d>& path, const std::vector<Mark>& marks) {
+}  // namespace
+
+bool visits_in_order(const std::vector<Vector2d>& path, const std::vector<Mark>& marks) {
   std::vector<char> reached(marks.size(), 0);
   for (std::size_t i = 0; i < path.size(); ++i) {
     char diagonal = 0;
@@ -48,8 +45,6 @@ bool walk(const std::vector<Vector2d>& path, const std::vector<Mark>& marks) {
   }
   return reached.back() != 0;
 }
-
-}  // namespace
 
 path::Path true_path(const Scene& scene) {
   Curve3 curve = respaced(scene.curve, 0.2 * scene.radius_m);
@@ -72,9 +67,9 @@ bool follows_rope(const path::Path& path, const Scene& scene) {
   }
   points.push_back(path.points_px.back().cast<double>());
   const std::vector<Mark> marks = marks_of(scene);
-  if (walk(points, marks)) return true;
+  if (visits_in_order(points, marks)) return true;
   std::reverse(points.begin(), points.end());
-  return walk(points, marks);
+  return visits_in_order(points, marks);
 }
 
 }  // namespace flowdlo::lab

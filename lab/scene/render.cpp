@@ -15,6 +15,8 @@ struct Rgb {
   double b;
 };
 
+constexpr Rgb kUsual{215, 40, 35};
+
 void paint(Image& image, std::size_t pixel, const Rgb& color, double light) {
   const auto byte = [&](double value) {
     return static_cast<std::uint8_t>(std::clamp(value * light, 0.0, 255.0));
@@ -41,8 +43,9 @@ void draw_background(const Plane& plane, Image& image) {
   }
 }
 
-// The near surface of the ball, where it is the nearest thing so far.
-void draw_ball(const Vector3d& centre, double radius, Image& image) {
+// The near surface of the ball, where it is the nearest thing so far. `label` 0: of one rope.
+void draw_ball(const Vector3d& centre, double radius, const Rgb& color, std::uint16_t label,
+               Image& image) {
   if (centre.z() <= 2 * radius) return;
   const double u = image.camera.fx * centre.x() / centre.z() + image.camera.cx;
   const double v = image.camera.fy * centre.y() / centre.z() + image.camera.cy;
@@ -64,8 +67,9 @@ void draw_ball(const Vector3d& centre, double radius, Image& image) {
       if (rope && z >= image.depth_m[pixel]) continue;
       image.depth_m[pixel] = static_cast<float>(z);
       image.mask[pixel] = 255;
+      if (label != 0) image.instances[pixel] = label;
       const Vector3d normal = (d * z - centre) / radius;
-      paint(image, pixel, {215, 40, 35}, std::clamp(0.35 - 0.65 * normal.z(), 0.2, 1.0));
+      paint(image, pixel, color, std::clamp(0.35 - 0.65 * normal.z(), 0.2, 1.0));
     }
   }
 }
@@ -84,17 +88,35 @@ void draw_bar(const Bar& bar, Image& image) {
   }
 }
 
-}  // namespace
-
-void render(const Curve3& curve, double radius_m, const Plane& background,
-            const std::vector<Bar>& bars, Image& image) {
+void clear(const Plane& background, Image& image) {
   const std::size_t pixels = static_cast<std::size_t>(image.width) * image.height;
   image.depth_m.assign(pixels, 0.0F);
   image.mask.assign(pixels, 0);
   image.color_bgr.assign(3 * pixels, 0);
   draw_background(background, image);
-  for (const Vector3d& p : respaced(curve, 0.25 * radius_m)) draw_ball(p, radius_m, image);
+}
+
+}  // namespace
+
+void render(const Curve3& curve, double radius_m, const Plane& background,
+            const std::vector<Bar>& bars, Image& image) {
+  clear(background, image);
+  for (const Vector3d& p : respaced(curve, 0.25 * radius_m)) {
+    draw_ball(p, radius_m, kUsual, 0, image);
+  }
   for (const Bar& bar : bars) draw_bar(bar, image);
+}
+
+void render(const std::vector<Body>& ropes, const Plane& background, Image& image) {
+  clear(background, image);
+  image.instances.assign(image.mask.size(), 0);
+  for (std::size_t i = 0; i < ropes.size(); ++i) {
+    const Body& rope = ropes[i];
+    const Rgb color{rope.color_rgb.x(), rope.color_rgb.y(), rope.color_rgb.z()};
+    for (const Vector3d& p : respaced(rope.curve, 0.25 * rope.radius_m)) {
+      draw_ball(p, rope.radius_m, color, static_cast<std::uint16_t>(i + 1), image);
+    }
+  }
 }
 
 }  // namespace flowdlo::lab

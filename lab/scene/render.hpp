@@ -22,9 +22,17 @@ struct Image {
   int width = 0;
   int height = 0;
   Intrinsics camera;
-  std::vector<float> depth_m;           ///< [height, width], of whatever is nearest
-  std::vector<std::uint8_t> mask;       ///< [height, width], 255 where the rope is nearest
-  std::vector<std::uint8_t> color_bgr;  ///< [height, width, 3]
+  std::vector<float> depth_m;              ///< [height, width], of whatever is nearest
+  std::vector<std::uint8_t> mask;          ///< [height, width], 255 where the rope is nearest
+  std::vector<std::uint8_t> color_bgr;     ///< [height, width, 3]
+  std::vector<std::uint16_t> instances{};  ///< [height, width] which of several ropes, from 1
+};
+
+/// One of several ropes.
+struct Body {
+  Curve3 curve;  ///< camera frame
+  double radius_m = 0;
+  Eigen::Vector3d color_rgb{215, 40, 35};
 };
 
 /// Background plane: points p of the camera frame with normal . p = offset_m.
@@ -37,5 +45,8 @@ struct Plane {
 /// camera are given.
 void render(const Curve3& curve, double radius_m, const Plane& background,
             const std::vector<Bar>& bars, Image& image);
+
+/// Draws background and ropes, and says of each pixel which rope it shows.
+void render(const std::vector<Body>& ropes, const Plane& background, Image& image);
 
 }  // namespace flowdlo::lab

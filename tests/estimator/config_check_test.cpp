@@ -42,6 +42,9 @@ TEST(ConfigCheck, EnumerationsBeyondTheirNamesAreRefused) {
 
 TEST(ConfigCheck, NumbersOutOfRangeAreRefused) {
   EXPECT_THAT(fault_of([](Config& c) { c.threads = -1; }), HasSubstr("Config.threads"));
+  EXPECT_THAT(fault_of([](Config& c) { c.ropes = -1; }), HasSubstr("Config.ropes: expected 0"));
+  EXPECT_THAT(fault_of([](Config& c) { c.ropes = kMostRopes + 1; }), HasSubstr("Config.ropes"));
+  EXPECT_EQ(fault_of([](Config& c) { c.ropes = kMostRopes; }), "none");
   EXPECT_THAT(fault_of([](Config& c) { c.threads = 1025; }), HasSubstr("Config.threads"));
   EXPECT_THAT(fault_of([](Config& c) { c.max_width = 0; }), HasSubstr("Config.max_width"));
   EXPECT_THAT(fault_of([](Config& c) { c.max_height = 4097; }), HasSubstr("Config.max_height"));

@@ -219,6 +219,39 @@ TEST(FrameFolder, DepthOfEightBitsIsRefusedAndSaysSo) {
               HasSubstr("depth.png: expected a 16-bit image of 1 channel, got 8-bit, 1 channel;"));
 }
 
+TEST(FrameFolder, LabelsOfEightAndSixteenBitsAreRead) {
+  const TemporaryFolder parent;
+  const auto folder = write_frame(parent.path());
+  EXPECT_TRUE(load_frame_folder(folder)->instances.empty());
+  write_png(folder / "instances.png", cv::Mat(60, 80, CV_8UC1, cv::Scalar(3)));
+  EXPECT_EQ(load_frame_folder(folder)->frame().instances[kOnRope], 3);
+  write_png(folder / "instances.png", cv::Mat(60, 80, CV_16UC1, cv::Scalar(700)));
+  EXPECT_EQ(load_frame_folder(folder)->frame().instances[kOnRope], 700);
+}
+
+TEST(FrameFolder, LabelsOfThreeChannelsOrAnotherSizeAreRefused) {
+  const TemporaryFolder parent;
+  const auto folder = write_frame(parent.path());
+  write_png(folder / "instances.png", cv::Mat(60, 80, CV_8UC3, cv::Scalar::all(3)));
+  EXPECT_THAT(error_of(folder).message, HasSubstr("instances.png: expected one channel"));
+  write_png(folder / "instances.png", cv::Mat(30, 80, CV_8UC1, cv::Scalar(3)));
+  EXPECT_THAT(error_of(folder).message, HasSubstr("instances.png: expected 80 x 60 px"));
+}
+
+TEST(FrameFolder, LabelsAreSavedAndThoseOfAnEarlierFrameGo) {
+  const TemporaryFolder parent;
+  auto loaded = load_frame_folder(write_frame(parent.path()));
+  ASSERT_TRUE(loaded);
+  loaded->instances.assign(loaded->mask.size(), 0);
+  loaded->instances[kOnRope] = 900;
+  const auto copy = parent.path() / "copy";
+  ASSERT_TRUE(save_frame_folder(copy, loaded->frame(), 0.001));
+  EXPECT_EQ(load_frame_folder(copy)->instances, loaded->instances);
+  loaded->instances.clear();
+  ASSERT_TRUE(save_frame_folder(copy, loaded->frame(), 0.001));
+  EXPECT_FALSE(fs::exists(copy / "instances.png"));
+}
+
 TEST(FrameFolder, DepthOfThreeChannelsIsRefused) {
   const TemporaryFolder parent;
   const auto folder = write_frame(parent.path());

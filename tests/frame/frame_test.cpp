@@ -54,6 +54,16 @@ TEST(Frame, ColourMustHaveThreeChannelsWhenPresent) {
   EXPECT_EQ(fault_of(pixels.frame()), "Frame.color_bgr: expected 36 values (4 x 3 x 3), got 12");
 }
 
+TEST(Frame, LabelsOfAnotherSizeAreNamedWithBothSizes) {
+  const Pixels pixels;
+  const std::vector<std::uint16_t> labels(12, 1);
+  Frame frame = pixels.frame();
+  frame.instances = labels;
+  EXPECT_EQ(fault_of(frame), "");
+  frame.instances = std::span(labels).first(5);
+  EXPECT_EQ(fault_of(frame), "Frame.instances: expected 12 values (4 x 3), got 5");
+}
+
 TEST(Frame, SidesBeyondTheLimitAreRefused) {
   auto frame = Pixels{}.frame();
   frame.width = 4097;

@@ -72,6 +72,59 @@ TEST(EstimateCommand, RefinedPriorLiesBehindTheSurfaceThatTheThesisPriorLiesOn) 
   EXPECT_GT(middle_depth("refined"), middle_depth("thesis"));
 }
 
+// A second rope, upright, in the frame that write_frame makes: across the first one and nearer.
+void add_rope(const fs::path& folder, bool labels) {
+  cv::Mat mask = cv::Mat::zeros(60, 80, CV_8UC1);
+  cv::Mat depth(60, 80, CV_16UC1, cv::Scalar(600));
+  cv::Mat instances = cv::Mat::zeros(60, 80, CV_8UC1);
+  const auto draw = [&](const cv::Rect& where, int depth_mm, int label) {
+    mask(where).setTo(255);
+    depth(where).setTo(depth_mm);
+    instances(where).setTo(label);
+  };
+  draw({10, 28, 60, 5}, 500, 4);
+  draw({38, 4, 5, 52}, 480, 9);
+  write_png(folder / "mask.png", mask);
+  write_png(folder / "depth.png", depth);
+  if (labels) write_png(folder / "instances.png", instances);
+}
+
+TEST(EstimateCommand, RopesAreWrittenEachAndThoseOfAnEarlierRunGo) {
+  const TemporaryFolder scratch;
+  const auto folder = write_frame(scratch.path());
+  add_rope(folder, false);
+  const auto outcome = run_estimate(scratch.path(), {folder.string(), "--ropes", "auto"});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("2 ropes, 1 crossing"));
+  EXPECT_EQ(files_in(results(scratch.path(), "rope")),
+            (std::set<std::string>{"centerline.csv", "centerline_1.csv", "estimate.json",
+                                   "overlay.png"}));
+  const auto json = estimate_json_of(scratch.path(), "rope");
+  ASSERT_EQ(json["ropes"].size(), 2U);
+  ASSERT_EQ(json["ropes"][0]["crossings"].size(), 1U);
+  EXPECT_EQ(json["ropes"][0]["crossings"][0]["over"], false);  // the longer one lies below
+  ASSERT_EQ(run_estimate(scratch.path(), {folder.string()}).exit_code, 0);
+  EXPECT_FALSE(fs::exists(results(scratch.path(), "rope") / "centerline_1.csv"));
+  EXPECT_FALSE(estimate_json_of(scratch.path(), "rope").contains("ropes"));
+}
+
+TEST(EstimateCommand, LabelsBesideAFrameTellItsRopes) {
+  const TemporaryFolder scratch;
+  const auto folder = write_frame(scratch.path());
+  add_rope(folder, true);
+  ASSERT_EQ(run_estimate(scratch.path(), {folder.string(), "--ropes", "1"}).exit_code, 0);
+  EXPECT_EQ(estimate_json_of(scratch.path(), "rope")["ropes"].size(), 2U);
+}
+
+TEST(EstimateCommand, NumbersOfRopesThatCannotBeAreWrongUsage) {
+  const TemporaryFolder scratch;
+  const auto frame = write_frame(scratch.path()).string();
+  for (const char* number : {"0", "33", "-1", "many", "2.5", "1e1", "3x"}) {
+    EXPECT_EQ(run_estimate(scratch.path(), {frame, "--ropes", number}).exit_code, 2) << number;
+  }
+  EXPECT_EQ(run_estimate(scratch.path(), {frame, "--ropes", "2", "--tensors"}).exit_code, 2);
+}
+
 TEST(EstimateCommand, UnknownKindOfPriorAndNegativeLengthAreWrongUsage) {
   const TemporaryFolder scratch;
   const auto frame = write_frame(scratch.path()).string();

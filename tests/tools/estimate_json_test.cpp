@@ -100,5 +100,40 @@ TEST(EstimateJson, BytesThatAreNoTextDoNotBreakIt) {
   EXPECT_TRUE(Json::accept(text));
 }
 
+TEST(RopesJson, TopLevelIsTheFirstRopesAndEachRopeHasTheFieldsOfTheContract) {
+  const auto ropes = test::sample_ropes();
+  const auto json = Json::parse(ropes_json(ropes, kProvenance));
+  EXPECT_EQ(json["status"], "ok");
+  EXPECT_EQ(json["closed"], false);
+  EXPECT_DOUBLE_EQ(json["confidence"], 0.8);
+  ASSERT_EQ(json["ropes"].size(), 2U);
+  for (const auto& rope : json["ropes"]) {
+    EXPECT_EQ(rope["nodes"].size(), 64U);
+    EXPECT_EQ(rope["nodes"][0].size(), 3U);
+    EXPECT_EQ(rope["support"].size(), 64U);
+    EXPECT_EQ(rope["sigma_m"].size(), 64U);
+    EXPECT_EQ(rope["source"], "prediction");
+    EXPECT_DOUBLE_EQ(rope["confidence"], 0.8);
+  }
+  EXPECT_EQ(json["ropes"][0]["closed"], false);
+  EXPECT_EQ(json["ropes"][1]["closed"], true);
+  EXPECT_NEAR(json["ropes"][1]["nodes"][0][1], -0.1, 1e-6);
+}
+
+TEST(RopesJson, ACrossingIsToldOfByBothOfItsRopes) {
+  const auto json = Json::parse(ropes_json(test::sample_ropes(), kProvenance));
+  const auto& below = json["ropes"][0]["crossings"];
+  const auto& above = json["ropes"][1]["crossings"];
+  ASSERT_EQ(below.size(), 1U);
+  ASSERT_EQ(above.size(), 1U);
+  EXPECT_EQ(below[0]["rope"], 1);
+  EXPECT_EQ(below[0]["over"], false);
+  EXPECT_NEAR(below[0]["at_m"], 0.15, 1e-6);
+  EXPECT_EQ(above[0]["rope"], 0);
+  EXPECT_EQ(above[0]["over"], true);
+  EXPECT_NEAR(above[0]["at_m"], 0.1, 1e-6);
+  EXPECT_NEAR(above[0]["other_at_m"], 0.15, 1e-6);
+}
+
 }  // namespace
 }  // namespace flowdlo::tools

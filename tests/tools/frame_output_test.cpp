@@ -88,6 +88,28 @@ TEST_F(FrameOutput, NoCurveStaysBesideAFailedStatus) {
   EXPECT_EQ(Json::parse(test::read_text(out() / "estimate.json"))["status"], "no_path");
 }
 
+TEST_F(FrameOutput, OfSeveralRopesHasACenterlineForEach) {
+  const auto ropes = test::sample_ropes();
+  ASSERT_TRUE(write_ropes(out(), frame_.frame(), ropes, kProvenance));
+  EXPECT_THAT(files(),
+              ElementsAre("centerline.csv", "centerline_1.csv", "estimate.json", "overlay.png"));
+  const auto first = frame::parse_centerline(test::read_text(out() / "centerline.csv"), "csv");
+  const auto other = frame::parse_centerline(test::read_text(out() / "centerline_1.csv"), "csv");
+  ASSERT_TRUE(first && other);
+  EXPECT_EQ(*first, ropes.ropes[0].nodes);
+  EXPECT_EQ(*other, ropes.ropes[1].nodes);
+}
+
+TEST_F(FrameOutput, RopesOfAnEarlierRunDoNotStay) {
+  fs::create_directories(out());
+  test::write_text(out() / "centerline_5.csv", "old");
+  test::write_text(out() / "centerline_31.csv", "old");
+  test::write_text(out() / "centerline_mine.csv", "mine");
+  ASSERT_TRUE(write());
+  EXPECT_THAT(files(),
+              ElementsAre("centerline.csv", "centerline_mine.csv", "estimate.json", "overlay.png"));
+}
+
 /// A disk on which nothing more can be made; what is there can be read and removed.
 class FullDisk : public test::FailingCalls {
  public:

@@ -149,5 +149,17 @@ TEST(Overlay, CurvesThatCannotBeDrawnLeaveThePicture) {
   EXPECT_EQ(draw_overlay(scene.frame(), estimate, "cpu").size(), cv::Size(640, 480));
 }
 
+TEST(RopesOverlay, EachRopeHasItsColourAndTheUpperOneIsWhole) {
+  const Scene scene;
+  const auto picture = draw_overlay(scene.frame(), test::sample_ropes(), "cpu");
+  EXPECT_EQ(picture.size(), cv::Size(640, 480));
+  EXPECT_GT(pixels_near(picture, rope_color(0), {330, 230, 150, 20}), 150);
+  EXPECT_EQ(pixels_near(picture, rope_color(1), {330, 230, 150, 20}), 0);
+  EXPECT_GT(pixels_near(picture, rope_color(1), {315, 300, 12, 80}), 100);
+  const cv::Rect crossing(317, 236, 7, 9);  // where both run
+  EXPECT_GT(pixels_near(picture, rope_color(1), crossing), 10);
+  EXPECT_EQ(pixels_near(picture, rope_color(0), crossing), 0);
+}
+
 }  // namespace
 }  // namespace flowdlo::tools

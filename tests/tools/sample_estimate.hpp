@@ -30,4 +30,18 @@ inline Estimate sample_estimate() {
   return estimate;
 }
 
+/// That rope and an upright one through its middle, a centimetre nearer, which is a ring.
+inline Ropes sample_ropes() {
+  Ropes ropes;
+  ropes.ropes = {sample_estimate(), sample_estimate()};
+  for (std::size_t j = 0; j < kNodes; ++j) {
+    ropes.ropes[1].nodes[j] = {0.0F, -0.1F + 0.2F * static_cast<float>(j) / 63.0F, 0.49F};
+    ropes.ropes[1].support[j] = 1;
+  }
+  ropes.ropes[1].closed = true;
+  ropes.crossings = {{1, 0, 0.1F, 0.15F, 0.01F}};
+  ropes.total_ms = 40.0;
+  return ropes;
+}
+
 }  // namespace flowdlo::test

@@ -1,0 +1,299 @@
+#include "estimator/parted.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <opencv2/imgproc.hpp>
+#include <utility>
+
+#include "flowdlo/config.hpp"
+#include "geometry/depth.hpp"
+#include "geometry/pixel.hpp"
+#include "geometry/polyline.hpp"
+#include "geometry/quantile.hpp"
+
+namespace flowdlo::estimator {
+namespace {
+
+using Eigen::Vector2f;
+using path::Path;
+using path::RopePaths;
+
+constexpr int kSpeckPixels = 12;         // a label below this is no rope
+constexpr std::size_t kChordPoints = 4;  // of a path, for finding where two cross
+constexpr float kFlattest = 0.3F;        // sine from which on a crossing gets no longer
+constexpr float kZone = 0.75F;           // of both widths over the sine: how far a crossing reaches
+constexpr float kBesideWidths = 2.0F;    // of a rope beside a crossing, which tells its depth
+constexpr float kMostWidth = 1.6F;       // a rope is at most so many times as wide as is usual
+constexpr float kEvenLead = 1.2F;        // of a set, in its costs: every other rope is right here,
+constexpr float kLeadScale = 0.5F;       // as flowdlo_ropes_report has it on 128 drawn scenes
+
+std::size_t index_of(const Frame& frame, const Vector2f& p) {
+  const int u = std::clamp(geometry::nearest_px(p.x()), 0, frame.width - 1);
+  const int v = std::clamp(geometry::nearest_px(p.y()), 0, frame.height - 1);
+  return static_cast<std::size_t>(v) * static_cast<std::size_t>(frame.width) +
+         static_cast<std::size_t>(u);
+}
+
+bool masked(const Frame& frame, std::size_t pixel) { return frame.mask[pixel] > 127; }
+
+// [height, width] f32, how far each pixel is from the path.
+cv::Mat distance_to(const Path& path, const Frame& frame) {
+  cv::Mat away(frame.height, frame.width, CV_8U, cv::Scalar(255));
+  std::vector<cv::Point> points;
+  for (const Vector2f& p : path.points_px) {
+    points.emplace_back(geometry::nearest_px(p.x()), geometry::nearest_px(p.y()));
+  }
+  cv::polylines(away, points, false, cv::Scalar(0));
+  cv::Mat distance;
+  cv::distanceTransform(away, distance, cv::DIST_L2, 5);
+  return distance;
+}
+
+// How wide `mask`, 0 or more, is along the path in the median.
+float width_along(const Path& path, const cv::Mat& inside, float usual_px) {
+  std::vector<float> widths;
+  for (std::size_t i = 0; i < path.points_px.size(); ++i) {
+    const int u = std::clamp(geometry::nearest_px(path.points_px[i].x()), 0, inside.cols - 1);
+    const int v = std::clamp(geometry::nearest_px(path.points_px[i].y()), 0, inside.rows - 1);
+    const float distance = inside.at<float>(v, u);
+    if (path.bridged[i] == 0 && distance > 0) widths.push_back(2 * distance - 0.5F);
+  }
+  if (widths.empty()) return usual_px;
+  return std::clamp(geometry::median_of(widths), 1.0F, kMostWidth * usual_px);
+}
+
+// Where two paths cross: samples of either.
+struct Meeting {
+  std::array<std::size_t, 2> sample{};
+  float sine = 1;
+};
+
+std::vector<Meeting> meetings(const Path& a, const Path& b) {
+  std::vector<Meeting> result;
+  const auto side = [](const Vector2f& p, const Vector2f& q) {
+    return p.x() * q.y() - p.y() * q.x();
+  };
+  const auto chord = [](const Path& path, std::size_t i) {
+    return Vector2f(path.points_px[std::min(i + kChordPoints, path.points_px.size() - 1)] -
+                    path.points_px[i]);
+  };
+  for (std::size_t i = 0; i + 1 < a.points_px.size(); i += kChordPoints) {
+    const Vector2f d = chord(a, i);
+    for (std::size_t j = 0; j + 1 < b.points_px.size(); j += kChordPoints) {
+      const Vector2f between = b.points_px[j] - a.points_px[i];
+      const Vector2f e = chord(b, j);
+      if (between.squaredNorm() > 4 * (d.squaredNorm() + e.squaredNorm())) continue;
+      const float cross = side(d, e);
+      if (std::abs(cross) < 1e-6F) continue;
+      const float t = side(between, e) / cross;
+      const float s = side(between, d) / cross;
+      if (t < 0 || t >= 1 || s < 0 || s >= 1) continue;
+      result.push_back({{i, j}, std::abs(cross) / (d.norm() * e.norm())});
+    }
+  }
+  return result;
+}
+
+class Parting {
+ public:
+  Parting(const Frame& frame, Parted& parted) : frame_(frame), parted_(parted) {
+    const cv::Mat mask(frame.height, frame.width, CV_8U,
+                       const_cast<std::uint8_t*>(frame.mask.data()));  // only read
+    cv::Mat inside;
+    cv::distanceTransform(mask > 127, inside, cv::DIST_L2, 5);
+    for (const Path& path : ropes()) {
+      distances_.push_back(distance_to(path, frame));
+      parted_.width_px.push_back(width_along(path, inside, parted.paths.rope_width_px));
+    }
+  }
+
+  // Each pixel of the mask to the path that it is nearest to, in widths of its rope; those of a
+  // crossing to the upper one.
+  void share_out() {
+    const std::size_t pixels = frame_.mask.size();
+    parted_.instances.assign(pixels, 0);
+    for (std::size_t p = 0; p < pixels; ++p) {
+      if (!masked(frame_, p)) continue;
+      std::size_t nearest = 0;
+      for (std::size_t r = 1; r < ropes().size(); ++r) {
+        if (away(r, p) * parted_.width_px[nearest] < away(nearest, p) * parted_.width_px[r]) {
+          nearest = r;
+        }
+      }
+      parted_.instances[p] = static_cast<std::uint16_t>(nearest + 1);
+    }
+    for (std::size_t a = 0; a < ropes().size(); ++a) {
+      for (std::size_t b = a + 1; b < ropes().size(); ++b) {
+        for (const Meeting& meeting : meetings(ropes()[a], ropes()[b])) give(a, b, meeting);
+      }
+    }
+  }
+
+ private:
+  [[nodiscard]] const std::vector<Path>& ropes() const { return parted_.paths.ropes; }
+  [[nodiscard]] float away(std::size_t rope, std::size_t pixel) const {
+    return reinterpret_cast<const float*>(distances_[rope].data)[pixel];
+  }
+
+  // The depth of a rope beside where it meets another: of its first pixels to either side that
+  // are not the other's; 0 where none are measured.
+  [[nodiscard]] float depth_beside(std::size_t rope, std::size_t sample, std::size_t other) const {
+    const Path& path = ropes()[rope];
+    const auto count = static_cast<std::ptrdiff_t>(path.points_px.size());
+    float sum = 0;
+    float sides = 0;
+    for (const std::ptrdiff_t step : {-1, 1}) {
+      std::vector<float> depths;
+      auto left = static_cast<int>(std::ceil(kBesideWidths * parted_.width_px[rope]));
+      for (auto i = static_cast<std::ptrdiff_t>(sample); i >= 0 && i < count && left > 0;
+           i += step) {
+        const std::size_t pixel = index_of(frame_, path.points_px[static_cast<std::size_t>(i)]);
+        if (away(other, pixel) < 0.5F * parted_.width_px[other] + 1.5F) continue;
+        --left;
+        const float z = frame_.depth_m[pixel];
+        if (masked(frame_, pixel) && geometry::measured(z)) depths.push_back(z);
+      }
+      if (depths.empty()) continue;
+      sum += geometry::median_of(depths);
+      ++sides;
+    }
+    return sides > 0 ? sum / sides : 0;
+  }
+
+  [[nodiscard]] bool bridged_at(std::size_t rope, std::size_t sample) const {
+    const Path& path = ropes()[rope];
+    const auto reach = static_cast<std::size_t>(parted_.width_px[rope]);
+    const std::size_t first = sample > reach ? sample - reach : 0;
+    const std::size_t last = std::min(sample + reach, path.bridged.size() - 1);
+    return std::any_of(path.bridged.begin() + static_cast<std::ptrdiff_t>(first),
+                       path.bridged.begin() + static_cast<std::ptrdiff_t>(last) + 1,
+                       [](std::uint8_t bridged) { return bridged != 0; });
+  }
+
+  // What a crossing of `a` and `b` shows goes to the upper one: whose mask is whole there, or else
+  // which is nearer beside it.
+  void give(std::size_t a, std::size_t b, const Meeting& meeting) {
+    const float za = depth_beside(a, meeting.sample[0], b);
+    const float zb = depth_beside(b, meeting.sample[1], a);
+    bool first = za <= 0 || zb <= 0 || za <= zb;
+    const bool bridges_a = bridged_at(a, meeting.sample[0]);
+    if (bridges_a != bridged_at(b, meeting.sample[1])) first = !bridges_a;
+    const std::size_t upper = first ? a : b;
+    const Vector2f& at = ropes()[a].points_px[meeting.sample[0]];
+    const float reach =
+        kZone * (parted_.width_px[a] + parted_.width_px[b]) / std::max(kFlattest, meeting.sine);
+    const int far = static_cast<int>(std::ceil(reach));
+    for (int dv = -far; dv <= far; ++dv) {
+      for (int du = -far; du <= far; ++du) {
+        if (static_cast<float>(du * du + dv * dv) > reach * reach) continue;
+        const int u = geometry::nearest_px(at.x()) + du;
+        const int v = geometry::nearest_px(at.y()) + dv;
+        if (u < 0 || v < 0 || u >= frame_.width || v >= frame_.height) continue;
+        const auto pixel = static_cast<std::size_t>(v) * static_cast<std::size_t>(frame_.width) +
+                           static_cast<std::size_t>(u);
+        const std::uint16_t now = parted_.instances[pixel];
+        if (now != a + 1 && now != b + 1) continue;
+        if (away(upper, pixel) > 0.5F * parted_.width_px[upper] + 0.5F) continue;
+        parted_.instances[pixel] = static_cast<std::uint16_t>(upper + 1);
+      }
+    }
+  }
+
+  const Frame& frame_;
+  Parted& parted_;
+  std::vector<cv::Mat> distances_;  // [ropes]
+};
+
+// The labels that cover more than a speck of the mask, in ascending order.
+std::vector<std::uint16_t> labels_of(const Frame& frame) {
+  std::map<std::uint16_t, int> pixels;
+  for (std::size_t p = 0; p < frame.mask.size(); ++p) {
+    if (masked(frame, p) && frame.instances[p] != 0) ++pixels[frame.instances[p]];
+  }
+  std::vector<std::uint16_t> labels;
+  for (const auto& [label, count] : pixels) {
+    if (count >= kSpeckPixels) labels.push_back(label);
+  }
+  return labels;
+}
+
+// Each label's own part of the mask as one rope; every other label may hide it.
+Result<Parted> part_labelled(const Frame& frame) {
+  const auto labels = labels_of(frame);
+  if (labels.empty() || labels.size() > static_cast<std::size_t>(kMostRopes)) {
+    return Error{ErrorCode::kNoPath,
+                 fmt::format("Frame.instances: expected 1 to {} labels on the mask, got {}; check "
+                             "the segmentation",
+                             kMostRopes, labels.size())};
+  }
+  Parted parted;
+  parted.instances.assign(frame.mask.size(), 0);
+  std::vector<std::uint8_t> mask(frame.mask.size());
+  std::vector<std::uint16_t> others(frame.mask.size());
+  for (const std::uint16_t label : labels) {
+    const auto number = static_cast<std::uint16_t>(parted.paths.ropes.size() + 1);
+    for (std::size_t p = 0; p < mask.size(); ++p) {
+      const bool own = frame.instances[p] == label;
+      mask[p] = own && masked(frame, p) ? 255 : 0;
+      others[p] = own ? 0 : frame.instances[p];
+      if (mask[p] != 0) parted.instances[p] = number;
+    }
+    Frame one = frame;
+    one.mask = mask;
+    one.instances = others;
+    auto traced = path::trace_ropes(one, 1);
+    if (!traced) {
+      return Error{traced.error().code,
+                   fmt::format("Frame.instances, label {}: {}", label, traced.error().message)};
+    }
+    parted.width_px.push_back(traced->rope_width_px);
+    parted.paths.rope_width_px = std::max(parted.paths.rope_width_px, traced->rope_width_px);
+    parted.paths.ropes.push_back(std::move(traced->ropes.front()));
+    parted.paths.lead.push_back(traced->lead.front());
+  }
+  return parted;
+}
+
+}  // namespace
+
+Result<Parted> part_ropes(const Frame& frame, int ropes) {
+  if (!frame.instances.empty()) return part_labelled(frame);
+  auto paths = path::trace_ropes(frame, ropes);
+  if (!paths) return paths.error();
+  Parted parted;
+  parted.paths = *std::move(paths);
+  Parting(frame, parted).share_out();
+  return parted;
+}
+
+std::vector<std::uint16_t> one_instance(const Frame& frame) {
+  std::vector<std::uint16_t> instances(frame.mask.size(), 0);
+  for (std::size_t p = 0; p < instances.size(); ++p) instances[p] = masked(frame, p) ? 1 : 0;
+  return instances;
+}
+
+float told_apart(float lead) { return 1 / (1 + std::exp((kEvenLead - lead) / kLeadScale)); }
+
+std::vector<std::uint16_t> sort_longest_first(std::vector<std::uint16_t> instances,
+                                              std::vector<Estimate>& ropes) {
+  std::vector<std::pair<float, std::size_t>> order;  // longest first, then as they were
+  for (std::size_t i = 0; i < ropes.size(); ++i) {
+    order.emplace_back(-geometry::length(ropes[i].nodes), i);
+  }
+  std::sort(order.begin(), order.end());
+  std::vector<Estimate> sorted;
+  std::vector<std::uint16_t> number(ropes.size() + 1, 0);
+  for (const auto& [length, i] : order) {
+    sorted.push_back(std::move(ropes[i]));
+    number[i + 1] = static_cast<std::uint16_t>(sorted.size());
+  }
+  ropes = std::move(sorted);
+  for (std::uint16_t& label : instances) label = number[label];
+  return instances;
+}
+
+}  // namespace flowdlo::estimator

@@ -1,0 +1,41 @@
+// Parted: the ropes of a frame told apart, and which pixel of the mask is whose.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "flowdlo/estimate.hpp"
+#include "flowdlo/frame.hpp"
+#include "flowdlo/result.hpp"
+#include "path/path.hpp"
+
+namespace flowdlo::estimator {
+
+/// The ropes of a frame told apart.
+struct Parted {
+  path::RopePaths paths;
+  /// [ropes] width of each, pixels, as its own part of the mask has it.
+  std::vector<float> width_px;
+  /// [height, width] the rope that a pixel shows, from 1; 0: none.
+  std::vector<std::uint16_t> instances;
+};
+
+/// With labels in the frame each that covers more than a speck of the mask is one rope; otherwise
+/// the mask is read as `ropes` of them, 0: as many as it shows. Where two cross, the pixels are
+/// given to the one that is nearer beside the crossing. Expects a valid frame. Fails as
+/// path::trace_ropes does.
+[[nodiscard]] Result<Parted> part_ropes(const Frame& frame, int ropes);
+
+/// Ropes::instances of a frame that is one rope.
+[[nodiscard]] std::vector<std::uint16_t> one_instance(const Frame& frame);
+
+/// [0, 1] how likely a rope is one of the frame's where any set of ropes without it costs `lead`
+/// more (path::RopePaths).
+[[nodiscard]] float told_apart(float lead);
+
+/// Puts the longest of `ropes` first; returns `instances` with the numbers that they have then.
+[[nodiscard]] std::vector<std::uint16_t> sort_longest_first(std::vector<std::uint16_t> instances,
+                                                            std::vector<Estimate>& ropes);
+
+}  // namespace flowdlo::estimator

@@ -1,0 +1,22 @@
+// Several: the ropes of one frame, each estimated in a view of its own.
+#pragma once
+
+#include <functional>
+
+#include "flowdlo/estimate.hpp"
+#include "flowdlo/frame.hpp"
+#include "flowdlo/result.hpp"
+#include "path/path.hpp"
+
+namespace flowdlo::estimator {
+
+/// One rope of a frame; along paths that are known already, or null; within that share, (0, 1], of
+/// the time that is left.
+using EstimateOne =
+    std::function<Result<Estimate>(const Frame&, const path::Traversals*, double share)>;
+
+/// Tells the ropes apart (`part_ropes`) and estimates each by `one`. One rope without labels is
+/// `one` of the frame itself. Expects a valid frame. Fails as part_ropes and `one` do.
+[[nodiscard]] Result<Ropes> estimate_each(const Frame& frame, int ropes, const EstimateOne& one);
+
+}  // namespace flowdlo::estimator

@@ -1,0 +1,146 @@
+#include "path/rope_paths.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+#include "flowdlo/config.hpp"
+#include "geometry/pixel.hpp"
+#include "geometry/quantile.hpp"
+#include "path/assemble.hpp"
+#include "path/bonds.hpp"
+#include "path/rope_sets.hpp"
+#include "path/walk_costs.hpp"
+
+namespace flowdlo::path {
+namespace {
+
+constexpr std::size_t kSets = 24;
+constexpr float kWidthFrom = 1.0F;      // widths from a strand's end on which its width is measured
+constexpr float kWidthTo = 9.0F;        // and up to here
+constexpr float kWidthNoise = 0.12F;    // of the logarithm of one rope's width along it,
+constexpr float kWidthNoisePx = 0.7F;   // and pixels
+constexpr float kMostWidthCost = 4.0F;  // of a bond
+
+// How wide the mask is at each end, [2 * strands]: in the median of the stretch that the crossing
+// there does not distort; 0 where there is none.
+std::vector<float> end_widths(const Strands& strands, const Region& region) {
+  std::vector<float> widths;
+  for (const Strand& strand : strands.list) {
+    for (int side = 0; side < 2; ++side) {
+      const auto& points = strand.points_px;
+      const auto count = static_cast<int>(points.size());
+      const int first = static_cast<int>(kWidthFrom * strands.scale_px);
+      const int last = std::min(count - first, static_cast<int>(kWidthTo * strands.scale_px));
+      std::vector<float> samples;
+      for (int i = first; i < last && !strand.doubled; ++i) {
+        const Eigen::Vector2f& p = points[side == 0 ? i : count - 1 - i];
+        if (!lit(region.mask, p)) continue;
+        samples.push_back(width_at(region.distance_px.at<float>(geometry::nearest_px(p.y()),
+                                                                geometry::nearest_px(p.x()))));
+      }
+      widths.push_back(samples.empty() ? 0 : geometry::median_of(samples));
+    }
+  }
+  return widths;
+}
+
+// What it costs that a rope is to go on wider or thinner; tends to a limit, for ropes that touch
+// look like one.
+float width_misfit(float a, float b) {
+  if (a <= 0 || b <= 0) return 0;
+  const float noise = kWidthNoise + kWidthNoisePx / std::min(a, b);
+  const float ratio = std::log(a / b) / noise;
+  return kMostWidthCost * (1 - std::exp(-0.5F * ratio * ratio / kMostWidthCost));
+}
+
+// The bonds of several ropes, which need not be of one width.
+std::vector<std::vector<Bond>> bonds_of_several(const Strands& strands, const Region& region,
+                                                const Frame& frame) {
+  auto bonds = make_bonds(strands, region, frame);
+  const std::vector<float> widths = end_widths(strands, region);
+  for (std::size_t from = 0; from < bonds.size(); ++from) {
+    for (Bond& bond : bonds[from]) {
+      bond.cost += width_misfit(widths[from], widths[static_cast<std::size_t>(bond.to)]);
+    }
+  }
+  return bonds;
+}
+
+// The strands that tell ways apart, the same for a way and its reverse.
+std::vector<int> key_of(const Traversal& way, const Strands& strands) {
+  std::vector<int> forwards;
+  std::vector<int> backwards;
+  for (const int end : way.enters) {
+    const bool minor = strands.list[end / 2].covers_px < kMinorWidths * strands.scale_px;
+    if (!minor) forwards.push_back(end);
+  }
+  for (auto it = forwards.rbegin(); it != forwards.rend(); ++it) backwards.push_back(*it ^ 1);
+  if (way.closed && !forwards.empty()) {  // a ring begins anywhere
+    std::rotate(forwards.begin(), std::min_element(forwards.begin(), forwards.end()),
+                forwards.end());
+    std::rotate(backwards.begin(), std::min_element(backwards.begin(), backwards.end()),
+                backwards.end());
+  }
+  return std::min(forwards, backwards);
+}
+
+// By how much the cheapest set that has no such way costs more than the first.
+float lead_of(const Traversal& way, const std::vector<RopeSet>& sets, const Strands& strands) {
+  const auto key = key_of(way, strands);
+  for (const RopeSet& set : sets) {
+    const bool has = std::any_of(set.ways.begin(), set.ways.end(), [&](const Traversal& other) {
+      return other.closed == way.closed && key_of(other, strands) == key;
+    });
+    if (!has) return std::min(kMostLead, set.cost - sets.front().cost);
+  }
+  return kMostLead;
+}
+
+Error no_set(int ropes, const Strands& strands) {
+  if (ropes == 0) {
+    return {ErrorCode::kNoPath,
+            "path: expected strokes longer than they are wide, got spots; check the segmentation"};
+  }
+  return {ErrorCode::kNoPath,
+          fmt::format("path: expected a mask of {} ropes, got {} stretches between crossings and "
+                      "ends that are not so many; check the number or the segmentation",
+                      ropes, strands.list.size())};
+}
+
+}  // namespace
+
+Result<RopePaths> rope_paths(const Strands& given, const Region& region, const Frame& frame,
+                             int ropes) {
+  Strands strands = given;
+  // Many tips tell of folds where they are one rope's; of several each has two.
+  if (ropes != 1) {
+    for (Strand& strand : strands.list) strand.folding = false;
+  }
+  const auto bonds =
+      ropes == 1 ? make_bonds(strands, region, frame) : bonds_of_several(strands, region, frame);
+  const auto sets = search_sets(strands, bonds, ropes, kSets);
+  if (sets.empty()) return no_set(ropes, strands);
+  RopePaths result;
+  result.rope_width_px = strands.width_px;
+  for (const Traversal& way : sets.front().ways) {
+    Path path = assemble(way, strands, region, frame);
+    if (path.points_px.size() < 2) continue;
+    path.width_px = strands.width_px;
+    path.score = -static_cast<double>(sets.front().cost);
+    result.ropes.push_back(std::move(path));
+    result.lead.push_back(lead_of(way, sets, strands));
+  }
+  if (result.ropes.empty()) return no_set(ropes, strands);
+  if (result.ropes.size() <= kMostRopes) return result;
+  return Error{ErrorCode::kNoPath,
+               fmt::format("path: expected at most {} ropes, got {} of a texture or of many "
+                           "things; check the segmentation",
+                           kMostRopes, result.ropes.size())};
+}
+
+}  // namespace flowdlo::path

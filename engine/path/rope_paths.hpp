@@ -1,0 +1,17 @@
+// Rope paths: the cheapest set of ropes through strands, each as one path.
+#pragma once
+
+#include "flowdlo/frame.hpp"
+#include "flowdlo/result.hpp"
+#include "path/path.hpp"
+#include "path/region.hpp"
+#include "path/strands.hpp"
+
+namespace flowdlo::path {
+
+/// As `trace_ropes`, of strands that are known; places are those of the frame that `region` was cut
+/// out of.
+[[nodiscard]] Result<RopePaths> rope_paths(const Strands& strands, const Region& region,
+                                           const Frame& frame, int ropes);
+
+}  // namespace flowdlo::path

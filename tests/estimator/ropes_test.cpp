@@ -1,0 +1,237 @@
+// Several ropes of one frame, from end to end.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <stdexcept>
+
+#include "estimator/parted.hpp"
+#include "estimator/rope_crossings.hpp"
+#include "estimator/rope_views.hpp"
+#include "flowdlo/estimator.hpp"
+#include "geometry/polyline.hpp"
+#include "scene/ropes.hpp"
+#include "support/wave_frame.hpp"
+
+namespace flowdlo {
+namespace {
+
+using lab::make_ropes;
+using lab::RopesKind;
+using ::testing::HasSubstr;
+using testing::WaveFrame;
+
+Estimator make(int ropes, int threads = 1) {
+  Config config{.weights = FLOWDLO_WEIGHTS, .device = "cpu", .euler_steps = 1, .draws = 1};
+  config.ropes = ropes;
+  config.threads = threads;
+  auto estimator = Estimator::create(config);
+  if (!estimator) throw std::runtime_error(estimator.error().message);
+  return *std::move(estimator);
+}
+
+Ropes estimate(Estimator& estimator, const Frame& frame) {
+  auto ropes = estimator.estimate_ropes(frame);
+  if (!ropes) throw std::runtime_error(ropes.error().message);
+  return *std::move(ropes);
+}
+
+TEST(EstimateRopes, EveryRopeIsFoundLongestFirst) {
+  const auto scene = make_ropes(RopesKind::kCrossing, 3, 0);
+  auto estimator = make(0);
+  const Ropes found = estimate(estimator, scene.frame());
+  ASSERT_EQ(found.ropes.size(), 3U);
+  std::vector<double> true_m;
+  std::vector<double> found_m;
+  for (const auto& rope : scene.ropes) {
+    true_m.push_back(static_cast<double>(geometry::length(rope.truth)));
+  }
+  for (const auto& rope : found.ropes) {
+    found_m.push_back(static_cast<double>(geometry::length(rope.nodes)));
+  }
+  EXPECT_TRUE(std::is_sorted(found_m.rbegin(), found_m.rend()));
+  std::sort(true_m.rbegin(), true_m.rend());
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(found_m[i], true_m[i], 0.1 * true_m[i]);
+}
+
+TEST(EstimateRopes, OneRopeIsTheSameToTheBitAsEstimate) {
+  const WaveFrame wave;
+  auto estimator = make(1);
+  const auto alone = estimator.estimate(wave.frame());
+  ASSERT_TRUE(alone) << alone.error().message;
+  const Ropes found = estimate(estimator, wave.frame());
+  ASSERT_EQ(found.ropes.size(), 1U);
+  EXPECT_EQ(found.ropes[0].nodes, alone->nodes);
+  EXPECT_EQ(found.ropes[0].sigma_m, alone->sigma_m);
+  EXPECT_EQ(found.ropes[0].confidence, alone->confidence);
+}
+
+TEST(EstimateRopes, EveryPixelOfTheMaskIsOneRopes) {
+  const auto scene = make_ropes(RopesKind::kCrossing, 2, 1);
+  auto estimator = make(2);
+  const Ropes found = estimate(estimator, scene.frame());
+  ASSERT_EQ(found.instances.size(), scene.image.mask.size());
+  std::size_t right = 0;
+  std::size_t swapped = 0;
+  std::size_t pixels = 0;
+  for (std::size_t p = 0; p < found.instances.size(); ++p) {
+    ASSERT_EQ(found.instances[p] != 0, scene.image.mask[p] > 127);
+    if (found.instances[p] == 0) continue;
+    ++pixels;
+    right += found.instances[p] == scene.image.instances[p] ? 1 : 0;
+    swapped += found.instances[p] + scene.image.instances[p] == 3 ? 1 : 0;
+  }
+  EXPECT_GT(std::max(right, swapped), pixels * 98 / 100);
+}
+
+TEST(EstimateRopes, TheUpperRopeOfACrossingIsToldAndWhere) {
+  const auto scene = make_ropes(RopesKind::kHanging, 2, 0);  // the second is 6 cm nearer
+  auto estimator = make(0);
+  const Ropes found = estimate(estimator, scene.frame());
+  ASSERT_EQ(found.ropes.size(), 2U);
+  const auto mean_z = [&](std::size_t i) {
+    float sum = 0;
+    for (const auto& node : found.ropes[i].nodes) sum += node.z;
+    return sum / kNodes;
+  };
+  const int nearer = mean_z(0) < mean_z(1) ? 0 : 1;
+  int between = 0;
+  for (const RopeCrossing& crossing : found.crossings) {
+    if (crossing.over == crossing.under) continue;
+    ++between;
+    EXPECT_EQ(crossing.over, nearer);
+    EXPECT_GT(crossing.over_at_m, 0);
+    EXPECT_LT(crossing.over_at_m,
+              geometry::length(found.ropes[static_cast<std::size_t>(crossing.over)].nodes));
+    EXPECT_NEAR(crossing.apart_m, 0.06, 0.03);
+  }
+  EXPECT_GE(between, 1);
+}
+
+TEST(EstimateRopes, ARingsLastNodeLiesNextToItsFirst) {
+  const auto scene = make_ropes(RopesKind::kRings, 2, 0);
+  auto estimator = make(0);
+  const Ropes found = estimate(estimator, scene.frame());
+  ASSERT_EQ(found.ropes.size(), 2U);
+  int rings = 0;
+  for (const Estimate& rope : found.ropes) {
+    if (!rope.closed) continue;
+    ++rings;
+    const double length = static_cast<double>(geometry::length(rope.nodes));
+    EXPECT_LT(geometry::distance(rope.nodes.front(), rope.nodes.back()), 2 * length / (kNodes - 1));
+  }
+  EXPECT_EQ(rings, 1);
+}
+
+TEST(EstimateRopes, WithLabelsEachIsOneRopeWhateverTheNumber) {
+  const auto scene = make_ropes(RopesKind::kGaps, 4, 0);
+  auto estimator = make(1);
+  const Ropes found = estimate(estimator, scene.frame(true));
+  EXPECT_EQ(found.ropes.size(), 4U);
+}
+
+TEST(EstimateRopes, OtherRopesAreNoStrandsThatOneLeavesOut) {
+  const auto scene = make_ropes(RopesKind::kCrossing, 4, 0);
+  auto estimator = make(0);
+  const Ropes found = estimate(estimator, scene.frame());
+  ASSERT_EQ(found.ropes.size(), 4U);
+  for (const Estimate& rope : found.ropes) {
+    const auto& doubts = rope.one_rope.doubts;
+    EXPECT_EQ(std::count(doubts.begin(), doubts.end(), Doubt::kStrandsLeft), 0);
+  }
+}
+
+TEST(EstimateRopes, TheNumberOfThreadsChangesNothing) {
+  const auto scene = make_ropes(RopesKind::kCrossing, 3, 1);
+  auto one = make(0, 1);
+  auto four = make(0, 4);
+  const Ropes a = estimate(one, scene.frame());
+  const Ropes b = estimate(four, scene.frame());
+  ASSERT_EQ(a.ropes.size(), b.ropes.size());
+  for (std::size_t i = 0; i < a.ropes.size(); ++i) EXPECT_EQ(a.ropes[i].nodes, b.ropes[i].nodes);
+  EXPECT_EQ(a.instances, b.instances);
+}
+
+TEST(EstimateRopes, LabelsThatAreNotThereAndTooManyAreErrors) {
+  auto scene = make_ropes(RopesKind::kCrossing, 2, 0);
+  auto estimator = make(0);
+  std::vector<std::uint16_t> labels(scene.image.mask.size(), 0);
+  Frame frame = scene.frame();
+  frame.instances = labels;
+  const auto none = estimator.estimate_ropes(frame);
+  ASSERT_FALSE(none);
+  EXPECT_THAT(none.error().message, HasSubstr("Frame.instances: expected 1 to 32 labels"));
+  for (std::size_t p = 0, seen = 0; p < labels.size(); ++p) {
+    if (scene.image.mask[p] > 127) labels[p] = static_cast<std::uint16_t>(1 + seen++ % 50);
+  }
+  const auto many = estimator.estimate_ropes(frame);
+  ASSERT_FALSE(many);
+  EXPECT_THAT(many.error().message, HasSubstr("got 50"));
+  frame.instances = frame.instances.first(10);
+  const auto short_ = estimator.estimate_ropes(frame);
+  ASSERT_FALSE(short_);
+  EXPECT_EQ(short_.error().code, ErrorCode::kBadInput);
+  EXPECT_THAT(short_.error().message, HasSubstr("Frame.instances: expected"));
+}
+
+TEST(EstimateRopes, AnEstimatorThatWasMovedFromSaysSo) {
+  auto estimator = make(0);
+  const auto moved = std::move(estimator);
+  const WaveFrame wave;
+  const auto answer = estimator.estimate_ropes(wave.frame());  // NOLINT(bugprone-use-after-move)
+  ASSERT_FALSE(answer);
+  EXPECT_THAT(answer.error().message, HasSubstr("moved from"));
+}
+
+TEST(RopeViews, AnUpperRopesPixelsAreThereInTheLowerOnesViewWithoutDepth) {
+  const auto scene = make_ropes(RopesKind::kHanging, 2, 0);
+  const auto parted = estimator::part_ropes(scene.frame(), 2);
+  ASSERT_TRUE(parted) << parted.error().message;
+  std::size_t shared = 0;
+  for (std::size_t rope = 0; rope < 2; ++rope) {
+    const estimator::RopeView view(*parted, rope, scene.frame());
+    const Frame frame = view.frame();
+    for (std::size_t p = 0; p < frame.mask.size(); ++p) {
+      const bool own = parted->instances[p] == rope + 1;
+      if (own) {
+        ASSERT_GT(frame.mask[p], 127);
+        ASSERT_EQ(frame.depth_m[p], scene.image.depth_m[p]);
+      } else if (frame.mask[p] > 127) {
+        ++shared;
+        ASSERT_EQ(frame.depth_m[p], 0);
+      }
+    }
+  }
+  EXPECT_GT(shared, 10U);
+}
+
+TEST(RopeCrossings, LinesThatCrossBackWithinTwoWidthsDoNotCross) {
+  std::vector<Estimate> ropes(2);
+  for (std::size_t i = 0; i < kNodes; ++i) {
+    const float x = -0.2F + 0.4F * static_cast<float>(i) / (kNodes - 1);
+    ropes[0].nodes[i] = {x, 0, 0.5F};
+    const bool other_side = i == 31;  // one node strays over the other rope
+    ropes[1].nodes[i] = {x, other_side ? -0.001F : 0.004F, 0.51F};
+  }
+  std::vector<std::uint8_t> mask(640 * 480, 0);
+  std::fill_n(mask.begin(), 6400, std::uint8_t{255});
+  const Frame frame{640, 480, {600, 600, 320, 240}, {}, mask, {}};
+  EXPECT_TRUE(estimator::rope_crossings(ropes, frame).empty());
+  for (std::size_t i = 32; i < kNodes; ++i) ropes[1].nodes[i].y = -0.004F;
+  const auto crossings = estimator::rope_crossings(ropes, frame);
+  ASSERT_EQ(crossings.size(), 1U);
+  EXPECT_EQ(crossings[0].over, 0);
+  EXPECT_EQ(crossings[0].under, 1);
+  EXPECT_NEAR(crossings[0].over_at_m, 0.2F, 0.02F);
+}
+
+TEST(ToldApart, RisesFromDoubtAtATieToCertainty) {
+  EXPECT_LT(estimator::told_apart(0), 0.2F);
+  EXPECT_LT(estimator::told_apart(1), estimator::told_apart(2));
+  EXPECT_GT(estimator::told_apart(path::kMostLead), 0.97F);
+}
+
+}  // namespace
+}  // namespace flowdlo

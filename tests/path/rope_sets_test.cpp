@@ -1,0 +1,105 @@
+#include "path/rope_sets.hpp"
+
+#include <gtest/gtest.h>
+
+#include "path/walk_costs.hpp"
+
+namespace flowdlo::path {
+namespace {
+
+using Bonds = std::vector<std::vector<Bond>>;
+
+// Strands of forty widths, both ends tips.
+Strands strands_of(std::size_t count) {
+  Strands strands;
+  strands.width_px = strands.scale_px = 10;
+  strands.list.resize(count);
+  for (Strand& strand : strands.list) strand.covers_px = 400;
+  return strands;
+}
+
+void join(Bonds& bonds, int a, int b, float cost) {
+  bonds[static_cast<std::size_t>(a)].push_back({b, cost, true});
+  bonds[static_cast<std::size_t>(b)].push_back({a, cost, true});
+}
+
+// Two strands that follow each other across a gap of that cost.
+std::vector<RopeSet> two_strands(float gap, int ropes) {
+  Bonds bonds(4);
+  join(bonds, 1, 2, gap);
+  return search_sets(strands_of(2), bonds, ropes, 4);
+}
+
+TEST(RopeSets, AGapThatCostsLessThanARopeJoinsTwoStrands) {
+  const auto sets = two_strands(kRopeCost - 0.5F, 0);
+  ASSERT_FALSE(sets.empty());
+  ASSERT_EQ(sets[0].ways.size(), 1U);
+  EXPECT_EQ(sets[0].ways[0].enters, (std::vector<int>{0, 2}));
+  EXPECT_FLOAT_EQ(sets[0].cost, 2 * kRopeCost - 0.5F);
+}
+
+TEST(RopeSets, AGapThatCostsMoreThanARopePartsThem) {
+  const auto sets = two_strands(kRopeCost + 0.5F, 0);
+  ASSERT_FALSE(sets.empty());
+  EXPECT_EQ(sets[0].ways.size(), 2U);
+  EXPECT_FLOAT_EQ(sets[0].cost, 2 * kRopeCost);
+}
+
+TEST(RopeSets, TheNumberAskedForIsFoundWhateverGapsCost) {
+  EXPECT_EQ(two_strands(kRopeCost + 9, 1).at(0).ways.size(), 1U);
+  EXPECT_EQ(two_strands(0.1F, 2).at(0).ways.size(), 2U);
+}
+
+TEST(RopeSets, ANumberThatTheStrandsCannotBeHasNoSet) { EXPECT_TRUE(two_strands(0.1F, 3).empty()); }
+
+TEST(RopeSets, RopesThatCrossGoStraightOn) {
+  Strands strands = strands_of(4);  // 0 goes on as 1, 2 as 3; all meet at one crossing
+  for (const int end : {1, 2, 5, 6}) {
+    strands.list[static_cast<std::size_t>(end / 2)]
+        .ends[static_cast<std::size_t>(end % 2)]
+        .crossing = 0;
+  }
+  Bonds bonds(8);
+  join(bonds, 1, 2, 0.1F);
+  join(bonds, 5, 6, 0.2F);
+  for (const int a : {1, 2}) {
+    for (const int b : {5, 6}) join(bonds, a, b, 2.0F);
+  }
+  const auto sets = search_sets(strands, bonds, 0, 8);
+  ASSERT_FALSE(sets.empty());
+  ASSERT_EQ(sets[0].ways.size(), 2U);
+  EXPECT_EQ(sets[0].ways[0].enters, (std::vector<int>{0, 2}));
+  EXPECT_EQ(sets[0].ways[1].enters, (std::vector<int>{4, 6}));
+  EXPECT_NEAR(sets[0].cost, 2 * kRopeCost + 0.3F, 1e-4F);
+}
+
+TEST(RopeSets, AWayThatComesBackToItsBeginningIsClosed) {
+  Bonds bonds(4);
+  join(bonds, 1, 2, 0.1F);
+  join(bonds, 3, 0, 0.1F);
+  const auto sets = search_sets(strands_of(2), bonds, 0, 4);
+  ASSERT_FALSE(sets.empty());
+  ASSERT_EQ(sets[0].ways.size(), 1U);
+  EXPECT_TRUE(sets[0].ways[0].closed);
+  EXPECT_NEAR(sets[0].cost, kRingCost + 0.2F, 1e-4F);
+}
+
+TEST(RopeSets, AShortStrandIsLeftOutAndALongOneIsARope) {
+  Strands strands = strands_of(2);
+  strands.list[1].covers_px = 15;  // a width and a half
+  const auto with_speck = search_sets(strands, Bonds(4), 0, 1);
+  ASSERT_FALSE(with_speck.empty());
+  EXPECT_EQ(with_speck[0].ways.size(), 1U);
+  EXPECT_FLOAT_EQ(with_speck[0].cost, kRopeCost + left_out_cost(strands.list[1], 10));
+  strands.list[1].covers_px = 60;
+  EXPECT_EQ(search_sets(strands, Bonds(4), 0, 1).at(0).ways.size(), 2U);
+}
+
+TEST(RopeSets, NoStrandsAreNoSet) {
+  Strands none;
+  EXPECT_TRUE(search_sets(none, {}, 0, 4).empty());
+  EXPECT_TRUE(search_sets(none, {}, 2, 4).empty());
+}
+
+}  // namespace
+}  // namespace flowdlo::path

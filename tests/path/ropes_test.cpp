@@ -1,0 +1,150 @@
+// Several ropes of one mask, on scenes with truth: which share of each kind has to be right is
+// flowdlo_ropes_report's.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "flowdlo/config.hpp"
+#include "path/path.hpp"
+#include "scene/ropes.hpp"
+#include "scene/setting.hpp"
+
+namespace flowdlo::path {
+namespace {
+
+using lab::make_ropes;
+using lab::RopesKind;
+using lab::RopesScene;
+using testing::HasSubstr;
+
+// How far a path's ends are from the ends of the rope that they are nearest to, pixels.
+double ends_off_px(const Path& path, const RopesScene& scene) {
+  double least = 1e9;
+  const Eigen::Vector2d a = path.points_px.front().cast<double>();
+  const Eigen::Vector2d b = path.points_px.back().cast<double>();
+  for (const auto& rope : scene.ropes) {
+    const auto first = lab::project(scene.image.camera, rope.curve.front());
+    const auto last = lab::project(scene.image.camera, rope.curve.back());
+    least = std::min({least, std::max((a - first).norm(), (b - last).norm()),
+                      std::max((b - first).norm(), (a - last).norm())});
+  }
+  return least;
+}
+
+TEST(RopePaths, AsManyAsThereAreWithTheirEndsWhereTheirsAre) {
+  for (int ropes = 2; ropes <= 5; ++ropes) {
+    const auto scene = make_ropes(RopesKind::kCrossing, ropes, 0);
+    const auto traced = trace_ropes(scene.frame(), 0);
+    ASSERT_TRUE(traced) << traced.error().message;
+    ASSERT_EQ(static_cast<int>(traced->ropes.size()), ropes);
+    for (const Path& path : traced->ropes) {
+      EXPECT_LT(ends_off_px(path, scene), 12) << ropes << " ropes";
+      EXPECT_FALSE(path.closed);
+    }
+    EXPECT_EQ(traced->lead.size(), traced->ropes.size());
+  }
+}
+
+TEST(RopePaths, GapsBelowTheUpperRopeAreBridged) {
+  const auto scene = make_ropes(RopesKind::kGaps, 3, 1);
+  const auto traced = trace_ropes(scene.frame(), 0);
+  ASSERT_TRUE(traced) << traced.error().message;
+  ASSERT_EQ(traced->ropes.size(), 3U);
+  const bool bridged =
+      std::any_of(traced->ropes.begin(), traced->ropes.end(), [](const Path& path) {
+        return std::count(path.bridged.begin(), path.bridged.end(), std::uint8_t{1}) > 0;
+      });
+  EXPECT_TRUE(bridged);
+}
+
+TEST(RopePaths, ARingIsClosedThoughARopeCrossesIt) {
+  const auto scene = make_ropes(RopesKind::kRings, 2, 0);
+  const auto traced = trace_ropes(scene.frame(), 0);
+  ASSERT_TRUE(traced) << traced.error().message;
+  ASSERT_EQ(traced->ropes.size(), 2U);
+  EXPECT_EQ(std::count_if(traced->ropes.begin(), traced->ropes.end(),
+                          [](const Path& path) { return path.closed; }),
+            1);
+  for (const Path& path : traced->ropes) {
+    if (!path.closed) continue;
+    EXPECT_LT((path.points_px.front() - path.points_px.back()).norm(), 12);
+  }
+}
+
+TEST(RopePaths, TheNumberMayBeGiven) {
+  const auto scene = make_ropes(RopesKind::kCrossing, 3, 0);
+  const auto traced = trace_ropes(scene.frame(), 3);
+  ASSERT_TRUE(traced) << traced.error().message;
+  EXPECT_EQ(traced->ropes.size(), 3U);
+}
+
+TEST(RopePaths, MoreRopesThanTheMaskCanBeIsAnErrorThatSaysSo) {
+  const auto scene = make_ropes(RopesKind::kCrossing, 2, 0);
+  const auto traced = trace_ropes(scene.frame(), kMostRopes);
+  ASSERT_FALSE(traced);
+  EXPECT_EQ(traced.error().code, ErrorCode::kNoPath);
+  EXPECT_THAT(traced.error().message, HasSubstr("expected a mask of 32 ropes"));
+}
+
+TEST(RopePaths, MoreThanAnyoneCanTellApartIsAnError) {
+  auto scene = make_ropes(RopesKind::kCrossing, 2, 0);
+  auto& mask = scene.image.mask;
+  std::fill(mask.begin(), mask.end(), std::uint8_t{0});
+  scene.image.depth_m.assign(mask.size(), 2.0F);
+  for (int k = 0; k < kMostRopes + 4; ++k) {  // bars in two rows
+    const int left = 12 + 34 * (k / 2);
+    const int top = k % 2 == 0 ? 30 : 260;
+    for (int v = top; v < top + 180; ++v) {
+      for (int u = left; u < left + 8; ++u) {
+        const std::size_t p =
+            static_cast<std::size_t>(v) * static_cast<std::size_t>(scene.image.width) +
+            static_cast<std::size_t>(u);
+        mask[p] = 255;
+        scene.image.depth_m[p] = 0.5F;
+      }
+    }
+  }
+  const auto traced = trace_ropes(scene.frame(), 0);
+  ASSERT_FALSE(traced);
+  EXPECT_THAT(traced.error().message, HasSubstr("at most 32 ropes"));
+}
+
+// A straight rope with a hole in it, in front of which a thing lies at the rope's own depth.
+TEST(RopePaths, AnotherRopesLabelHidesWhatTheDepthDoesNot) {
+  constexpr int kWidth = 320;
+  constexpr int kHeight = 120;
+  std::vector<float> depth_m(kWidth * kHeight, 0.55F);
+  std::vector<std::uint8_t> mask(depth_m.size(), 0);
+  std::vector<std::uint16_t> labels(depth_m.size(), 0);
+  for (int v = 56; v < 64; ++v) {
+    for (int u = 20; u < 300; ++u) {
+      const bool hole = u >= 130 && u < 190;
+      const auto p = static_cast<std::size_t>(v) * kWidth + static_cast<std::size_t>(u);
+      if (!hole) mask[p] = 255;
+      if (!hole) depth_m[p] = 0.5F;
+      labels[p] = hole ? 7 : 0;
+    }
+  }
+  Frame frame{kWidth, kHeight, {300, 300, 160, 60}, depth_m, mask, {}};
+  const auto open = trace_ropes(frame, 0);
+  ASSERT_TRUE(open) << open.error().message;
+  EXPECT_EQ(open->ropes.size(), 2U);  // background shows in the hole
+  frame.instances = labels;
+  const auto hidden = trace_ropes(frame, 0);
+  ASSERT_TRUE(hidden) << hidden.error().message;
+  EXPECT_EQ(hidden->ropes.size(), 1U);
+}
+
+TEST(RopePaths, AnEmptyMaskIsAnError) {
+  auto scene = make_ropes(RopesKind::kCrossing, 2, 0);
+  std::fill(scene.image.mask.begin(), scene.image.mask.end(), std::uint8_t{0});
+  for (const int ropes : {0, 1, 4}) {
+    const auto traced = trace_ropes(scene.frame(), ropes);
+    ASSERT_FALSE(traced);
+    EXPECT_EQ(traced.error().code, ErrorCode::kNoPath);
+  }
+}
+
+}  // namespace
+}  // namespace flowdlo::path
