@@ -12,9 +12,10 @@
 
 #include "estimator/candidates.hpp"
 #include "estimator/conditions.hpp"
-#include "estimator/confidence.hpp"
 #include "estimator/config_check.hpp"
 #include "estimator/device_choice.hpp"
+#include "estimator/hints.hpp"
+#include "estimator/returned.hpp"
 #include "estimator/second_look.hpp"
 #include "estimator/stopwatch.hpp"
 #include "estimator/tensors.hpp"
@@ -23,7 +24,6 @@
 #include "field/network.hpp"
 #include "field/strand_field.hpp"
 #include "flow/sampler.hpp"
-#include "gate/calibrated.hpp"
 #include "gate/gate.hpp"
 #include "gate/one_rope.hpp"
 #include "guard/guarded.hpp"
@@ -94,50 +94,9 @@ void return_free_memory() {
 #endif
 }
 
-/// The probability that the hypothesis the estimate follows is right. A runner-up's can only come
-/// out of what the best one's leaves.
-float confidence_of(const std::vector<estimator::Hypothesis>& hypotheses, std::size_t used) {
-  const auto& best = hypotheses.front();
-  const float of_best = estimator::confidence(best.evidence, estimator::lead(hypotheses));
-  if (used == 0) return of_best;
-  const auto& other = hypotheses[used];
-  return std::min(1 - of_best, estimator::confidence(other.evidence, 0));
-}
-
-/// What the estimate will be.
-struct Returned {
-  int draw = -1;  // -1: the prior of the hypothesis
-  std::size_t hypothesis = 0;
-  float confidence = 0;
-  std::array<float, kNodes> sigma_m{};
-};
-
-/// Eq. (3.33).
-Returned by_thesis(const std::vector<estimator::Hypothesis>& hypotheses,
-                   const flow::Prediction& prediction, const gate::Verdict& verdict,
-                   const std::vector<int>& assigned) {
-  Returned returned;
-  returned.draw = verdict.draw;
-  if (verdict.draw >= 0) {
-    const int hypothesis = assigned[static_cast<std::size_t>(verdict.draw)];
-    returned.hypothesis = static_cast<std::size_t>(hypothesis);
-  }
-  returned.confidence = confidence_of(hypotheses, returned.hypothesis);
-  returned.sigma_m = estimator::node_sigma(verdict.source, verdict.draw, prediction,
-                                           hypotheses[returned.hypothesis].prior);
-  return returned;
-}
-
-/// The candidate that the fitted score prefers.
-Returned by_score(const std::vector<gate::Candidate>& candidates) {
-  const gate::Choice choice = gate::choose_calibrated(candidates);
-  const gate::Candidate& chosen = candidates[choice.chosen];
-  return {chosen.draw, static_cast<std::size_t>(chosen.hypothesis),
-          static_cast<float>(choice.probability), choice.sigma_m};
-}
-
 /// The caller's view of what the gate chose.
-Estimate conclude(const Returned& returned, const std::vector<estimator::Hypothesis>& hypotheses,
+Estimate conclude(const estimator::Returned& returned,
+                  const std::vector<estimator::Hypothesis>& hypotheses,
                   const flow::Prediction& prediction, gate::Verdict verdict,
                   const gate::DilatedMask& mask, const Frame& frame) {
   const prior::Prior& prior = hypotheses[returned.hypothesis].prior;
@@ -151,6 +110,7 @@ Estimate conclude(const Returned& returned, const std::vector<estimator::Hypothe
   estimate.mask_agreement = mask.agreement(estimate.nodes, frame.intrinsics);
   estimate.prior_mask_agreement = verdict.prior_agreement;
   estimate.confidence = returned.confidence;
+  estimate.switched = returned.switched;
   estimate.draws = std::move(verdict.draws);
   for (std::size_t i = 0; i < hypotheses.size(); ++i) {
     if (i == returned.hypothesis) continue;
@@ -177,7 +137,7 @@ struct FLOWDLO_HIDDEN Estimator::Impl {
   pid_t process = ::getpid();  // in a process forked from this one threads and device are missing
 
   static Result<std::unique_ptr<Impl>> create(const Config& config);
-  Result<Estimate> estimate(const Frame& frame, Tensors* tensors);
+  Result<Estimate> estimate(const Frame& frame, const Hints& hints, Tensors* tensors);
   Result<flow::Prediction> sample(const flow::SampleInput& input);
   [[nodiscard]] weights::PriorKind prior_kind() const;
   [[nodiscard]] bool calibrated() const;
@@ -264,16 +224,20 @@ std::vector<int> Estimator::Impl::assign(
   return estimator::assign_draws(count, margin, config.draws);
 }
 
-Result<Estimate> Estimator::Impl::estimate(const Frame& frame, Tensors* tensors) {
+Result<Estimate> Estimator::Impl::estimate(const Frame& frame, const Hints& hints,
+                                           Tensors* tensors) {
   if (auto valid = validate(frame); !valid) return valid.error();
+  if (auto valid = estimator::check(hints, frame); !valid) return valid.error();
+  const double rope_length_m = hints.rope_length_m.value_or(config.rope_length_m);
+  const auto ends = estimator::end_directions(hints, frame.intrinsics);
   Timings timings;
   estimator::Stopwatch total;
   const auto conditions =
-      estimator::gather(frame, config.rope_length_m, prior_kind(), timings);  // Sec. 3.2, 3.3
+      estimator::gather(frame, rope_length_m, prior_kind(), timings, ends);  // Sec. 3.2, 3.3
   estimator::Stopwatch stage;
   if (!conditions) return conditions.error();
   estimator::Rereading rereading(pool, readings(*conditions, frame), field ? &*field : nullptr,
-                                 *conditions, frame, config.rope_length_m, prior_kind());
+                                 *conditions, frame, rope_length_m, prior_kind(), ends);
 
   const auto& hypotheses = conditions->hypotheses;
   const auto assigned = assign(hypotheses);
@@ -296,24 +260,27 @@ Result<Estimate> Estimator::Impl::estimate(const Frame& frame, Tensors* tensors)
   if (!prediction) return prediction.error();
   timings.device_ms = sampler.stage_times_ms();
   stage.lap(timings.model_ms);
-  const estimator::SecondLook look = rereading.finish();
+  estimator::SecondLook look = rereading.finish();
   timings.readings_ms = rereading.duration_ms();
   stage.skip();  // readings_ms has it
 
   const gate::DilatedMask mask(frame);
   auto verdict = gate::choose(prediction->draws, draw_prior_nodes, hypotheses.front().prior.nodes,
                               mask, frame.intrinsics);  // Eq. (3.30)-(3.33)
-  const Returned returned =
-      calibrated() ? by_score(estimator::list_candidates(look, conditions->paths.rope_width_px,
-                                                         *prediction, verdict.draws, assigned,
-                                                         frame, config.rope_length_m))
-                   : by_thesis(hypotheses, *prediction, verdict, assigned);
+  const auto candidates =
+      calibrated() ? estimator::list_candidates(look, conditions->paths.rope_width_px, *prediction,
+                                                verdict.draws, assigned, frame, rope_length_m)
+                   : std::vector<gate::Candidate>();
+  const auto returned =
+      calibrated() ? estimator::by_score(candidates, hints, *conditions, frame, rope_length_m, look)
+                   : estimator::by_thesis(hypotheses, *prediction, verdict, assigned);
   Estimate estimate =
       conclude(returned, look.hypotheses, *prediction, std::move(verdict), mask, frame);
   estimate.one_rope = gate::one_rope(estimate.nodes, frame, conditions->paths.rope_width_px);
   estimate.confidence = gate::doubted(estimate.confidence, estimate.one_rope);
   estimate.readings = look.readings;
   estimate.calibrated = calibrated();
+  estimator::turn(estimate, hints, frame.intrinsics);
   stage.lap(timings.gate_ms);
   total.lap(timings.total_ms);
   estimate.timings = std::move(timings);
@@ -339,7 +306,7 @@ Result<Estimator> Estimator::create(const Config& config) {
   });
 }
 
-Result<Estimate> Estimator::estimate(const Frame& frame, Tensors* tensors) {
+Result<Estimate> Estimator::run(const Frame& frame, const Hints& hints, Tensors* tensors) {
   return guard::guarded("Estimator::estimate", [&]() -> Result<Estimate> {
     if (!impl_) {
       return Error{ErrorCode::kBadInput,
@@ -350,14 +317,22 @@ Result<Estimate> Estimator::estimate(const Frame& frame, Tensors* tensors) {
                    "Estimator: expected the process that made it, got one forked from there, "
                    "without its threads and device; make a new one"};
     }
-    return impl_->estimate(frame, tensors);
+    return impl_->estimate(frame, hints, tensors);
   });
 }
 
-Result<Estimate> Estimator::estimate(const Frame& frame) { return estimate(frame, nullptr); }
+Result<Estimate> Estimator::estimate(const Frame& frame) { return run(frame, {}, nullptr); }
 
 Result<Estimate> Estimator::estimate(const Frame& frame, Tensors& tensors) {
-  return estimate(frame, &tensors);
+  return run(frame, {}, &tensors);
+}
+
+Result<Estimate> Estimator::estimate(const Frame& frame, const Hints& hints) {
+  return run(frame, hints, nullptr);
+}
+
+Result<Estimate> Estimator::estimate(const Frame& frame, const Hints& hints, Tensors& tensors) {
+  return run(frame, hints, &tensors);
 }
 
 const std::string& Estimator::device() const {

@@ -120,13 +120,14 @@ std::vector<path::Reading> worth_reading(const Conditions& conditions, const Fra
 
 Rereading::Rereading(threads::Pool& pool, std::vector<path::Reading> kinds, field::Network* field,
                      const Conditions& conditions, const Frame& frame, double rope_length_m,
-                     weights::PriorKind prior_kind)
+                     weights::PriorKind prior_kind, std::vector<Eigen::Vector2f> ends)
     : kinds_(std::move(kinds)),
       field_(kinds_.empty() ? nullptr : field),
       conditions_(conditions),
       frame_(frame),
       rope_length_m_(rope_length_m),
       prior_kind_(prior_kind),
+      ends_(std::move(ends)),
       reads_(kinds_.size() + (field_ != nullptr ? 1 : 0)),
       beside_(pool, static_cast<int>(reads_.size()),
               [this](int which) { read(static_cast<std::size_t>(which)); }) {}
@@ -135,7 +136,7 @@ void Rereading::read(std::size_t which) {
   Read& result = reads_[which];
   result.begin = Clock::now();
   const float width_px = conditions_.paths.rope_width_px;
-  const path::TraceConfig config{.rope_length_m = rope_length_m_};
+  const path::TraceConfig config{.rope_length_m = rope_length_m_, .ends = ends_};
   const auto trace = [&] {
     if (field_ != nullptr && which == 0) return trace_seen(*field_, frame_, width_px, config);
     const std::size_t kind = which - (field_ != nullptr ? 1 : 0);

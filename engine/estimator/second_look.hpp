@@ -34,10 +34,10 @@ struct SecondLook {
 class Rereading {
  public:
   /// `kinds` of the mask, and with a network of a strand field the one that follows its axes, where
-  /// there are any other; null: none.
+  /// there are any other; null: none. `ends` as path::TraceConfig's.
   Rereading(threads::Pool& pool, std::vector<path::Reading> kinds, field::Network* field,
             const Conditions& conditions, const Frame& frame, double rope_length_m,
-            weights::PriorKind prior_kind);
+            weights::PriorKind prior_kind, std::vector<Eigen::Vector2f> ends = {});
 
   /// What all readings hold. Those that fail are left out; without any the hypotheses are the
   /// conditions'. Once.
@@ -64,6 +64,7 @@ class Rereading {
   const Frame frame_;
   const double rope_length_m_;
   const weights::PriorKind prior_kind_;
+  const std::vector<Eigen::Vector2f> ends_;
   std::vector<Read> reads_;  // one a reading
   threads::Beside beside_;   // last: it ends first
 };

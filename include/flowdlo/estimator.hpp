@@ -8,6 +8,7 @@
 #include "flowdlo/estimate.hpp"
 #include "flowdlo/export.hpp"
 #include "flowdlo/frame.hpp"
+#include "flowdlo/hints.hpp"
 #include "flowdlo/result.hpp"
 
 namespace flowdlo {
@@ -29,6 +30,11 @@ class FLOWDLO_EXPORT Estimator {
   /// The same, and copies every tensor of spec section 3 (`--tensors`) to `tensors`.
   [[nodiscard]] Result<Estimate> estimate(const Frame& frame, Tensors& tensors);
 
+  /// With what the caller knows beside the frame. Fails as well with kBadInput, naming every fault
+  /// of `hints`. Without any hint the same bits as estimate(frame).
+  [[nodiscard]] Result<Estimate> estimate(const Frame& frame, const Hints& hints);
+  [[nodiscard]] Result<Estimate> estimate(const Frame& frame, const Hints& hints, Tensors& tensors);
+
   /// "cpu", or the name of the Vulkan device in use. Moved from: empty.
   [[nodiscard]] const std::string& device() const;
 
@@ -48,7 +54,7 @@ class FLOWDLO_EXPORT Estimator {
     void operator()(Impl* impl) const noexcept;
   };
   FLOWDLO_HIDDEN explicit Estimator(std::unique_ptr<Impl> impl);
-  FLOWDLO_HIDDEN Result<Estimate> estimate(const Frame& frame, Tensors* tensors);
+  FLOWDLO_HIDDEN Result<Estimate> run(const Frame& frame, const Hints& hints, Tensors* tensors);
   std::unique_ptr<Impl, LetGo> impl_;
 };
 
