@@ -17,6 +17,7 @@
 #include "flowdlo/frame_folder.hpp"
 #include "frame_list.hpp"
 #include "frame_output.hpp"
+#include "hint_options.hpp"
 #include "model_options.hpp"
 #include "progress_bar.hpp"
 #include "recording_arguments.hpp"
@@ -32,6 +33,9 @@ struct EstimateOptions {
   fs::path out;
   Config config;
   RecordingArguments recordings;
+  HintArguments hint_arguments;
+  Hints hints;
+  int curve_points = 0;  // 0: no curve.csv
   bool tensors = false;
   bool field_overlay = false;
   bool quiet = false;
@@ -82,13 +86,19 @@ Result<std::string> run_frame(const EstimateOptions& options, const FrameEntry& 
   if (!loaded) return fail(loaded.error());
   Tensors tensors;
   const bool looks_inside = options.tensors || options.field_overlay;
-  const auto estimate = looks_inside ? estimator.estimate(loaded->frame(), tensors)
-                                     : estimator.estimate(loaded->frame());
+  const auto estimate = looks_inside ? estimator.estimate(loaded->frame(), options.hints, tensors)
+                                     : estimator.estimate(loaded->frame(), options.hints);
   if (!estimate) return fail(estimate.error());
-  const auto written = write_estimate(
-      folder, loaded->frame(), *estimate,
-      {options.tensors ? &tensors : nullptr, options.field_overlay ? &tensors.strands : nullptr},
-      provenance, durability);
+  std::vector<Point3> curve;
+  if (options.curve_points > 0) {
+    auto dense = estimate->curve(options.curve_points);
+    if (!dense) return fail(dense.error());
+    curve = *std::move(dense);
+  }
+  const auto written = write_estimate(folder, loaded->frame(), *estimate,
+                                      {options.tensors ? &tensors : nullptr,
+                                       options.field_overlay ? &tensors.strands : nullptr, curve},
+                                      provenance, durability);
   if (!written) return fail(written.error());
   return summary(*estimate, entry, folder);
 }
@@ -113,7 +123,13 @@ ExitCode run_frames(const EstimateOptions& options, const std::vector<FrameEntry
   return exit_code;
 }
 
-ExitCode run(const EstimateOptions& options) {
+ExitCode run(EstimateOptions& options) {
+  const auto hints = hints_of(options.hint_arguments);
+  if (!hints) {
+    complain(hints.error());
+    return ExitCode::kUsage;
+  }
+  options.hints = *hints;
   const auto frames =
       list_frames(options.frames, recording_opener(options.recordings, options.quiet));
   if (!frames) {
@@ -145,6 +161,12 @@ void add_estimate_command(CLI::App& app, ExitCode& exit_code) {
       ->required()
       ->type_name("DIR");
   add_model_options(*command, options->config);
+  add_hint_options(*command, options->hint_arguments);
+  command
+      ->add_option("--curve", options->curve_points,
+                   "Write curve.csv: so many points of the smooth curve through the nodes")
+      ->check(CLI::Range(2, kMostCurvePoints))
+      ->type_name("N");
   command->add_flag("--tensors", options->tensors, "Write the model's tensors as .npy as well");
   command
       ->add_option("--overlay", options->field_overlay,
