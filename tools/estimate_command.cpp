@@ -18,6 +18,7 @@
 #include "flowdlo/frame_folder.hpp"
 #include "frame_list.hpp"
 #include "frame_output.hpp"
+#include "hint_options.hpp"
 #include "model_options.hpp"
 #include "progress_bar.hpp"
 #include "recording_arguments.hpp"
@@ -33,6 +34,9 @@ struct EstimateOptions {
   fs::path out;
   Config config;
   RecordingArguments recordings;
+  HintArguments hint_arguments;
+  Hints hints;
+  int curve_points = 0;  // 0: no curve.csv
   bool tensors = false;
   bool field_overlay = false;
   bool quiet = false;
@@ -101,13 +105,19 @@ Result<std::string> run_frame(const EstimateOptions& options, const FrameEntry& 
   }
   Tensors tensors;
   const bool looks_inside = options.tensors || options.field_overlay;
-  const auto estimate = looks_inside ? estimator.estimate(loaded->frame(), tensors)
-                                     : estimator.estimate(loaded->frame());
+  const auto estimate = looks_inside ? estimator.estimate(loaded->frame(), options.hints, tensors)
+                                     : estimator.estimate(loaded->frame(), options.hints);
   if (!estimate) return fail(estimate.error());
-  const auto written = write_estimate(
-      folder, loaded->frame(), *estimate,
-      {options.tensors ? &tensors : nullptr, options.field_overlay ? &tensors.strands : nullptr},
-      provenance, durability);
+  std::vector<Point3> curve;
+  if (options.curve_points > 0) {
+    auto dense = estimate->curve(options.curve_points);
+    if (!dense) return fail(dense.error());
+    curve = *std::move(dense);
+  }
+  const auto written = write_estimate(folder, loaded->frame(), *estimate,
+                                      {options.tensors ? &tensors : nullptr,
+                                       options.field_overlay ? &tensors.strands : nullptr, curve},
+                                      provenance, durability);
   if (!written) return fail(written.error());
   return summary(*estimate, entry, folder);
 }
@@ -132,7 +142,13 @@ ExitCode run_frames(const EstimateOptions& options, const std::vector<FrameEntry
   return exit_code;
 }
 
-ExitCode run(const EstimateOptions& options) {
+ExitCode run(EstimateOptions& options) {
+  const auto hints = hints_of(options.hint_arguments);
+  if (!hints) {
+    complain(hints.error());
+    return ExitCode::kUsage;
+  }
+  options.hints = *hints;
   const auto frames =
       list_frames(options.frames, recording_opener(options.recordings, options.quiet));
   if (!frames) {
@@ -177,6 +193,15 @@ void add_estimate_command(CLI::App& app, ExitCode& exit_code) {
                           kMostRopes))
           ->check(CLI::Range(1, kMostRopes) | CLI::IsMember({"auto"}))
           ->type_name("N");
+  add_hint_options(*command, options->hint_arguments);
+  command
+      ->add_option("--curve", options->curve_points,
+                   "Write curve.csv: so many points of the smooth curve through the nodes")
+      ->check(CLI::Range(2, kMostCurvePoints))
+      ->type_name("N");
+  for (const char* of_one : {"--first-end", "--end", "--previous", "--curve"}) {
+    command->get_option(of_one)->excludes(ropes);
+  }
   command->add_flag("--tensors", options->tensors, "Write the model's tensors as .npy as well")
       ->excludes(ropes);
   command

@@ -63,14 +63,18 @@ Json draws_json(const std::vector<DrawReport>& draws) {
   return list;
 }
 
+Json nodes_json(const Centerline& nodes) {
+  Json list = Json::array();
+  for (const auto& node : nodes) list.push_back(numbers(node));
+  return list;
+}
+
 Json alternatives_json(const std::vector<Alternative>& alternatives) {
   Json list = Json::array();
   for (const auto& alternative : alternatives) {
-    Json nodes = Json::array();
-    for (const auto& node : alternative.nodes) nodes.push_back(numbers(node));
     list.push_back({{"score", number(alternative.score)},
                     {"mask_agreement", number(alternative.mask_agreement)},
-                    {"nodes_m", std::move(nodes)}});
+                    {"nodes_m", nodes_json(alternative.nodes)}});
   }
   return list;
 }
@@ -155,6 +159,9 @@ Json whole_json(const Estimate& estimate, const Provenance& provenance) {
   json["mask_agreement"] = number(estimate.mask_agreement);
   json["prior_mask_agreement"] = number(estimate.prior_mask_agreement);
   json["draws"] = draws_json(estimate.draws);
+  json["reversed"] = estimate.reversed;
+  json["switched"] = estimate.switched;
+  json["nodes_m"] = nodes_json(estimate.nodes);
   json["support"] = estimate.support;
   json["sigma_m"] = Json::array();
   for (const float sigma_m : estimate.sigma_m) json["sigma_m"].push_back(number(sigma_m));

@@ -1,4 +1,4 @@
-// estimate.json: everything about one estimate but its nodes, spec section 3.
+// estimate.json: everything about one estimate, spec section 3.
 #pragma once
 
 #include <cstdint>

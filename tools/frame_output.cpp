@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 constexpr const char* kKeyFile = "estimate.json";  // while it is missing, nothing is to be read
 
 std::vector<std::string> other_names() {
-  std::vector<std::string> names = {"centerline.csv", "overlay.png"};
+  std::vector<std::string> names = {"centerline.csv", "curve.csv", "overlay.png"};
   names.insert(names.end(), kTensorFileNames.begin(), kTensorFileNames.end());
   return names;
 }
@@ -48,6 +48,9 @@ Result<void> put_all(files::FolderUpdate& update, const Frame& frame, const Esti
       frame::encode_png(draw_overlay(frame, estimate, provenance.device, extras.strands));
   if (!picture) return picture.error();
   if (done = update.put("overlay.png", *picture); !done) return done;
+  if (!extras.curve.empty()) {
+    if (done = update.put("curve.csv", frame::format_centerline(extras.curve)); !done) return done;
+  }
   if (extras.tensors != nullptr) {
     const auto files = tensor_files(*extras.tensors);
     if (!files) return files.error();

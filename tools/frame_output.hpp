@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <span>
 #include <string>
 
 #include "estimate_json.hpp"
@@ -23,6 +24,7 @@ namespace flowdlo::tools {
 struct Extras {
   const Tensors* tensors = nullptr;      ///< as .npy files
   const SeenStrands* strands = nullptr;  ///< in the overlay
+  std::span<const Point3> curve{};       ///< as curve.csv; empty: none
 };
 
 /// Writes centerline.csv, overlay.png, what `extras` name, and estimate.json last; what an earlier

@@ -58,6 +58,20 @@ gate::Candidate prior_candidate(const Hypothesis& hypothesis, int index, double 
   return candidate;
 }
 
+/// What a candidate of that hypothesis looks like beside the frame.
+void measure(const Hypothesis& hypothesis, const SecondLook& look, const Frame& frame,
+             double rope_length_m, gate::TubeView& view, gate::Candidate& candidate) {
+  candidate.tube = view.score(candidate.nodes, candidate.radius_m);
+  candidate.pixel_m = gate::pixel_m(candidate.nodes, frame.intrinsics);
+  candidate.noise_m = view.noise_m();
+  candidate.unseen_m = unseen_m(candidate.nodes, hypothesis.prior.support);
+  candidate.length_off = length_off(candidate.nodes, rope_length_m);
+  if (look.axes) {
+    candidate.axes = gate::score_axes(
+        *look.axes, gate::image_curve(candidate.nodes, frame, look.axes->width_px));
+  }
+}
+
 }  // namespace
 
 std::vector<gate::Candidate> list_candidates(const SecondLook& look, float rope_width_px,
@@ -68,24 +82,16 @@ std::vector<gate::Candidate> list_candidates(const SecondLook& look, float rope_
   const auto& hypotheses = look.hypotheses;
   gate::TubeView view(frame, rope_width_px);
   std::vector<gate::Candidate> candidates;
-  const auto measure = [&](gate::Candidate& candidate) {
-    candidate.tube = view.score(candidate.nodes, candidate.radius_m);
-    candidate.pixel_m = gate::pixel_m(candidate.nodes, frame.intrinsics);
-    candidate.noise_m = view.noise_m();
+  const auto add = [&](gate::Candidate& candidate) {
     const auto h = static_cast<std::size_t>(candidate.hypothesis);
-    candidate.unseen_m = unseen_m(candidate.nodes, hypotheses[h].prior.support);
-    candidate.length_off = length_off(candidate.nodes, rope_length_m);
-    if (look.axes) {
-      candidate.axes = gate::score_axes(
-          *look.axes, gate::image_curve(candidate.nodes, frame, look.axes->width_px));
-    }
+    measure(hypotheses[h], look, frame, rope_length_m, view, candidate);
     candidates.push_back(candidate);
   };
   for (std::size_t h = 0; h < hypotheses.size(); ++h) {
     auto candidate = prior_candidate(hypotheses[h], static_cast<int>(h), hypotheses.front().score);
     candidate.radius_m = view.radius_m(candidate.nodes);
     candidate.readings = look.readings;
-    measure(candidate);
+    add(candidate);
   }
   for (std::size_t d = 0; d < prediction.draws.size(); ++d) {
     if (!reports[d].accepted) continue;
@@ -93,9 +99,21 @@ std::vector<gate::Candidate> list_candidates(const SecondLook& look, float rope_
     candidate.draw = static_cast<int>(d);
     candidate.nodes = prediction.draws[d];
     if (!prediction.sigma_m.empty()) candidate.sigma_m = prediction.sigma_m[d];
-    measure(candidate);
+    add(candidate);
   }
   return candidates;
+}
+
+gate::Candidate guest_of(const Hypothesis& hypothesis,
+                         const std::vector<gate::Candidate>& candidates, const SecondLook& look,
+                         float rope_width_px, const Frame& frame, double rope_length_m) {
+  gate::TubeView view(frame, rope_width_px);
+  auto candidate = prior_candidate(hypothesis, static_cast<int>(candidates.size()),
+                                   look.hypotheses.front().score);
+  candidate.radius_m = view.radius_m(candidate.nodes);
+  candidate.readings = look.readings;
+  measure(hypothesis, look, frame, rope_length_m, view, candidate);
+  return candidate;
 }
 
 }  // namespace flowdlo::estimator

@@ -18,4 +18,10 @@ namespace flowdlo::estimator {
     const std::vector<DrawReport>& reports, const std::vector<int>& assigned, const Frame& frame,
     double rope_length_m);
 
+/// A hypothesis that no reading of this frame brought forth, as the one after `candidates`.
+[[nodiscard]] gate::Candidate guest_of(const Hypothesis& hypothesis,
+                                       const std::vector<gate::Candidate>& candidates,
+                                       const SecondLook& look, float rope_width_px,
+                                       const Frame& frame, double rope_length_m);
+
 }  // namespace flowdlo::estimator

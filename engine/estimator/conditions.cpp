@@ -16,7 +16,8 @@ Error no_evidence() {
 }  // namespace
 
 Result<Conditions> gather(const Frame& frame, double rope_length_m, weights::PriorKind kind,
-                          Timings& timings, const path::Traversals* traced) {
+                          Timings& timings, const std::vector<Eigen::Vector2f>& ends,
+                          const path::Traversals* traced) {
   Stopwatch stage;
   Conditions conditions;
   conditions.cloud = evidence::unproject(frame);  // Sec. 3.2
@@ -24,9 +25,10 @@ Result<Conditions> gather(const Frame& frame, double rope_length_m, weights::Pri
   conditions.visible = evidence::visible_points(conditions.cloud);
   stage.lap(timings.evidence_ms);
 
-  auto paths = traced != nullptr
-                   ? Result<path::Traversals>(*traced)
-                   : path::trace(frame, {.rope_length_m = rope_length_m});  // Sec. 3.3
+  auto paths =
+      traced != nullptr
+          ? Result<path::Traversals>(*traced)
+          : path::trace(frame, {.rope_length_m = rope_length_m, .ends = ends});  // Sec. 3.3
   stage.lap(timings.path_ms);
   if (!paths) return paths.error();
   conditions.paths = *std::move(paths);

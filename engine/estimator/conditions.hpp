@@ -21,10 +21,12 @@ struct Conditions {
   std::vector<Hypothesis> hypotheses;  ///< best first; never empty
 };
 
-/// `rope_length_m` 0: unknown. `traced`: the paths, where they are known already; else null. Fills evidence_ms, path_ms and prior_ms of `timings`. Expects a
-/// valid frame. Fails with kNoEvidence, or as path::trace and lift_all do.
+/// `rope_length_m` 0: unknown; `ends` as path::TraceConfig's. `traced`: the paths, where they are
+/// known already; else null. Fills evidence_ms, path_ms and prior_ms of `timings`. Expects a valid
+/// frame. Fails with kNoEvidence, or as path::trace and lift_all do.
 [[nodiscard]] Result<Conditions> gather(const Frame& frame, double rope_length_m,
                                         weights::PriorKind kind, Timings& timings,
+                                        const std::vector<Eigen::Vector2f>& ends = {},
                                         const path::Traversals* traced = nullptr);
 
 }  // namespace flowdlo::estimator

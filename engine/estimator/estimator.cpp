@@ -13,11 +13,12 @@
 #include "estimator/budget.hpp"
 #include "estimator/candidates.hpp"
 #include "estimator/conditions.hpp"
-#include "estimator/confidence.hpp"
 #include "estimator/config_check.hpp"
 #include "estimator/device_choice.hpp"
+#include "estimator/hints.hpp"
 #include "estimator/known_scene.hpp"
 #include "estimator/opening.hpp"
+#include "estimator/returned.hpp"
 #include "estimator/second_look.hpp"
 #include "estimator/several.hpp"
 #include "estimator/stopwatch.hpp"
@@ -27,7 +28,6 @@
 #include "field/network.hpp"
 #include "field/strand_field.hpp"
 #include "flow/sampler.hpp"
-#include "gate/calibrated.hpp"
 #include "gate/gate.hpp"
 #include "gate/one_rope.hpp"
 #include "guard/guarded.hpp"
@@ -49,50 +49,9 @@ void return_free_memory() {
 #endif
 }
 
-/// The probability that the hypothesis the estimate follows is right. A runner-up's can only come
-/// out of what the best one's leaves.
-float confidence_of(const std::vector<estimator::Hypothesis>& hypotheses, std::size_t used) {
-  const auto& best = hypotheses.front();
-  const float of_best = estimator::confidence(best.evidence, estimator::lead(hypotheses));
-  if (used == 0) return of_best;
-  const auto& other = hypotheses[used];
-  return std::min(1 - of_best, estimator::confidence(other.evidence, 0));
-}
-
-/// What the estimate will be.
-struct Returned {
-  int draw = -1;  // -1: the prior of the hypothesis
-  std::size_t hypothesis = 0;
-  float confidence = 0;
-  std::array<float, kNodes> sigma_m{};
-};
-
-/// Eq. (3.33).
-Returned by_thesis(const std::vector<estimator::Hypothesis>& hypotheses,
-                   const flow::Prediction& prediction, const gate::Verdict& verdict,
-                   const std::vector<int>& assigned) {
-  Returned returned;
-  returned.draw = verdict.draw;
-  if (verdict.draw >= 0) {
-    const int hypothesis = assigned[static_cast<std::size_t>(verdict.draw)];
-    returned.hypothesis = static_cast<std::size_t>(hypothesis);
-  }
-  returned.confidence = confidence_of(hypotheses, returned.hypothesis);
-  returned.sigma_m = estimator::node_sigma(verdict.source, verdict.draw, prediction,
-                                           hypotheses[returned.hypothesis].prior);
-  return returned;
-}
-
-/// The candidate that the fitted score prefers.
-Returned by_score(const std::vector<gate::Candidate>& candidates) {
-  const gate::Choice choice = gate::choose_calibrated(candidates);
-  const gate::Candidate& chosen = candidates[choice.chosen];
-  return {chosen.draw, static_cast<std::size_t>(chosen.hypothesis),
-          static_cast<float>(choice.probability), choice.sigma_m};
-}
-
 /// The caller's view of what the gate chose.
-Estimate conclude(const Returned& returned, const std::vector<estimator::Hypothesis>& hypotheses,
+Estimate conclude(const estimator::Returned& returned,
+                  const std::vector<estimator::Hypothesis>& hypotheses,
                   const flow::Prediction& prediction, gate::Verdict verdict,
                   const gate::DilatedMask& mask, const Frame& frame) {
   const prior::Prior& prior = hypotheses[returned.hypothesis].prior;
@@ -107,6 +66,7 @@ Estimate conclude(const Returned& returned, const std::vector<estimator::Hypothe
   estimate.mask_agreement = mask.agreement(estimate.nodes, frame.intrinsics);
   estimate.prior_mask_agreement = verdict.prior_agreement;
   estimate.confidence = returned.confidence;
+  estimate.switched = returned.switched;
   estimate.draws = std::move(verdict.draws);
   for (std::size_t i = 0; i < hypotheses.size(); ++i) {
     if (i == returned.hypothesis) continue;
@@ -137,7 +97,8 @@ struct FLOWDLO_HIDDEN Estimator::Impl {
 
   static Result<std::unique_ptr<Impl>> create(const Config& config);
   void learn_costs();
-  Result<Estimate> estimate(const Frame& frame, Tensors* tensors, const estimator::Budget& budget,
+  Result<Estimate> estimate(const Frame& frame, const Hints& hints, Tensors* tensors,
+                            const estimator::Budget& budget,
                             const path::Traversals* traced = nullptr);
   Result<flow::Prediction> sample(const flow::SampleInput& input);
   [[nodiscard]] weights::PriorKind prior_kind() const;
@@ -180,7 +141,7 @@ Result<std::unique_ptr<Estimator::Impl>> Estimator::Impl::create(const Config& w
 void Estimator::Impl::learn_costs() {
   const estimator::KnownScene scene;
   Tensors tensors;  // nothing is left out where they are asked for
-  (void)estimate(scene.frame(), &tensors, estimator::Budget(config.budget_ms));
+  (void)estimate(scene.frame(), {}, &tensors, estimator::Budget(config.budget_ms));
 }
 
 /// The model's predictions. Where the device was left to us, a lost one is replaced by the CPU.
@@ -253,18 +214,21 @@ std::vector<int> Estimator::Impl::assign(
   return estimator::assign_draws(count, margin, config.draws);
 }
 
-Result<Estimate> Estimator::Impl::estimate(const Frame& frame, Tensors* tensors,
-                                           const estimator::Budget& budget,
+Result<Estimate> Estimator::Impl::estimate(const Frame& frame, const Hints& hints,
+                                           Tensors* tensors, const estimator::Budget& budget,
                                            const path::Traversals* traced) {
   if (auto valid = validate(frame); !valid) return valid.error();
+  if (auto valid = estimator::check(hints, frame); !valid) return valid.error();
+  const double rope_length_m = hints.rope_length_m.value_or(config.rope_length_m);
+  const auto ends = estimator::end_directions(hints, frame.intrinsics);
   Timings timings;
   estimator::Stopwatch total;
-  const auto conditions = estimator::gather(frame, config.rope_length_m, prior_kind(), timings,
-                                            traced);  // Sec. 3.2, 3.3
+  const auto conditions =
+      estimator::gather(frame, rope_length_m, prior_kind(), timings, ends, traced);  // Sec. 3.2, 3.3
   estimator::Stopwatch stage;
   if (!conditions) return conditions.error();
   estimator::Rereading rereading(pool, readings(*conditions, frame), field ? &*field : nullptr,
-                                 *conditions, frame, config.rope_length_m, prior_kind(),
+                                 *conditions, frame, rope_length_m, prior_kind(), ends,
                                  limits(budget, timings));
 
   const auto& hypotheses = conditions->hypotheses;
@@ -294,18 +258,20 @@ Result<Estimate> Estimator::Impl::estimate(const Frame& frame, Tensors* tensors,
   }
   stage.lap(timings.model_ms);
   if (sampled) model_cost.saw(timings.mask_field_ms + timings.model_ms, 1);
-  const estimator::SecondLook look = rereading.finish();
+  estimator::SecondLook look = rereading.finish();
   timings.readings_ms = rereading.duration_ms();
   stage.skip();  // readings_ms has it
 
   const gate::DilatedMask mask(frame);
   auto verdict = gate::choose(prediction->draws, draw_prior_nodes, hypotheses.front().prior.nodes,
                               mask, frame.intrinsics);  // Eq. (3.30)-(3.33)
-  const Returned returned =
-      calibrated() ? by_score(estimator::list_candidates(look, conditions->paths.rope_width_px,
-                                                         *prediction, verdict.draws, assigned,
-                                                         frame, config.rope_length_m))
-                   : by_thesis(hypotheses, *prediction, verdict, assigned);
+  const auto candidates =
+      calibrated() ? estimator::list_candidates(look, conditions->paths.rope_width_px, *prediction,
+                                                verdict.draws, assigned, frame, rope_length_m)
+                   : std::vector<gate::Candidate>();
+  const auto returned =
+      calibrated() ? estimator::by_score(candidates, hints, *conditions, frame, rope_length_m, look)
+                   : estimator::by_thesis(hypotheses, *prediction, verdict, assigned);
   Estimate estimate =
       conclude(returned, look.hypotheses, *prediction, std::move(verdict), mask, frame);
   estimate.one_rope = gate::one_rope(estimate.nodes, frame, conditions->paths.rope_width_px);
@@ -315,6 +281,7 @@ Result<Estimate> Estimator::Impl::estimate(const Frame& frame, Tensors* tensors,
   if (!sampled) estimate.left_out.push_back(LeftOut::kModel);
   if (look.field_left_out) estimate.left_out.push_back(LeftOut::kField);
   if (look.readings_left_out) estimate.left_out.push_back(LeftOut::kReadings);
+  estimator::turn(estimate, hints, frame.intrinsics);
   stage.lap(timings.gate_ms);
   gate_cost.saw(timings.gate_ms, 1);
   total.lap(timings.total_ms);
@@ -354,10 +321,10 @@ Result<void> Estimator::usable() const {
   return {};
 }
 
-Result<Estimate> Estimator::estimate(const Frame& frame, Tensors* tensors) {
+Result<Estimate> Estimator::run(const Frame& frame, const Hints& hints, Tensors* tensors) {
   return guard::guarded("Estimator::estimate", [&]() -> Result<Estimate> {
     if (auto fine = usable(); !fine) return fine.error();
-    return impl_->estimate(frame, tensors, estimator::Budget(impl_->config.budget_ms));
+    return impl_->estimate(frame, hints, tensors, estimator::Budget(impl_->config.budget_ms));
   });
 }
 
@@ -369,15 +336,23 @@ Result<Ropes> Estimator::estimate_ropes(const Frame& frame) {
     return estimator::estimate_each(
         frame, impl_->config.ropes,
         [&](const Frame& view, const path::Traversals* traced, double share) {
-          return impl_->estimate(view, nullptr, budget.part(share), traced);
+          return impl_->estimate(view, {}, nullptr, budget.part(share), traced);
         });
   });
 }
 
-Result<Estimate> Estimator::estimate(const Frame& frame) { return estimate(frame, nullptr); }
+Result<Estimate> Estimator::estimate(const Frame& frame) { return run(frame, {}, nullptr); }
 
 Result<Estimate> Estimator::estimate(const Frame& frame, Tensors& tensors) {
-  return estimate(frame, &tensors);
+  return run(frame, {}, &tensors);
+}
+
+Result<Estimate> Estimator::estimate(const Frame& frame, const Hints& hints) {
+  return run(frame, hints, nullptr);
+}
+
+Result<Estimate> Estimator::estimate(const Frame& frame, const Hints& hints, Tensors& tensors) {
+  return run(frame, hints, &tensors);
 }
 
 const std::string& Estimator::device() const {

@@ -154,7 +154,8 @@ ReadingCosts::ReadingCosts()
 
 Rereading::Rereading(threads::Pool& pool, std::vector<path::Reading> kinds, field::Network* field,
                      const Conditions& conditions, const Frame& frame, double rope_length_m,
-                     weights::PriorKind prior_kind, const ReadingLimits& limits)
+                     weights::PriorKind prior_kind, std::vector<Eigen::Vector2f> ends,
+                     const ReadingLimits& limits)
     : kinds_(std::move(kinds)),
       field_(kinds_.empty() ? nullptr : field),
       limits_(limits),
@@ -162,6 +163,7 @@ Rereading::Rereading(threads::Pool& pool, std::vector<path::Reading> kinds, fiel
       frame_(frame),
       rope_length_m_(rope_length_m),
       prior_kind_(prior_kind),
+      ends_(std::move(ends)),
       rope_px_(field_ != nullptr && limits.budget != nullptr
                    ? magnified_px(frame, conditions.paths.rope_width_px)
                    : 0),
@@ -193,7 +195,7 @@ void Rereading::read(std::size_t which) {
   }
   result.begin = Clock::now();
   const float width_px = conditions_.paths.rope_width_px;
-  const path::TraceConfig config{.rope_length_m = rope_length_m_};
+  const path::TraceConfig config{.rope_length_m = rope_length_m_, .ends = ends_};
   const auto trace = [&] {
     if (field_ != nullptr && which == 0) {
       return trace_seen(*field_, frame_, width_px, config, axes_);

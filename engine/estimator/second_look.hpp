@@ -63,10 +63,11 @@ struct SecondLook {
 class Rereading {
  public:
   /// `kinds` of the mask, and with a network of a strand field the one that follows its axes, where
-  /// there are any other; null: none.
+  /// there are any other; null: none. `ends` as path::TraceConfig's.
   Rereading(threads::Pool& pool, std::vector<path::Reading> kinds, field::Network* field,
             const Conditions& conditions, const Frame& frame, double rope_length_m,
-            weights::PriorKind prior_kind, const ReadingLimits& limits = {});
+            weights::PriorKind prior_kind, std::vector<Eigen::Vector2f> ends = {},
+            const ReadingLimits& limits = {});
 
   /// What all readings will take on one thread; 0 without limits.
   [[nodiscard]] double expected_ms() const;
@@ -105,6 +106,7 @@ class Rereading {
   const Frame frame_;
   const double rope_length_m_;
   const weights::PriorKind prior_kind_;
+  const std::vector<Eigen::Vector2f> ends_;
   double rope_px_ = 0;       // of the rope, magnified as the network sees it; 0 without limits
   std::vector<Read> reads_;  // one a reading
   std::optional<field::Axes> axes_;

@@ -81,10 +81,10 @@ Result<Centerline> parse_centerline(std::string_view text, const std::string& wh
   return nodes;
 }
 
-std::string format_centerline(const Centerline& nodes) {
+std::string format_centerline(std::span<const Point3> points) {
   std::string text = "x,y,z\n";
-  for (const auto& node : nodes) {
-    text += fmt::format("{:.9g},{:.9g},{:.9g}\n", node.x, node.y, node.z);
+  for (const auto& point : points) {
+    text += fmt::format("{:.9g},{:.9g},{:.9g}\n", point.x, point.y, point.z);
   }
   return text;
 }

@@ -54,16 +54,36 @@ double lead_elsewhere(std::span<const Candidate> candidates, std::span<const std
   return lead;
 }
 
-Choice choose_calibrated(std::span<const Candidate> candidates, const GateWeights& weights) {
-  const auto returned = returned_by(candidates, weights);
+Choice choose_calibrated(std::span<const Candidate> frames_own, const GateWeights& weights,
+                         const Beside& beside) {
+  auto returned = returned_by(frames_own, weights);
   std::vector<double> scores;
   for (const std::size_t index : returned) {
-    scores.push_back(hypothesis_score(candidates, index, weights));
+    scores.push_back(hypothesis_score(frames_own, index, weights));
   }
-  const std::size_t hypothesis = preferred(scores, weights.hypothesis_margin);
+  const std::size_t by_frame = preferred(scores, weights.hypothesis_margin);
+  std::vector<double> with_prior = scores;
+  for (std::size_t h = 0; h < scores.size() && !beside.log_prior.empty(); ++h) {
+    with_prior[h] += beside.log_prior[returned[h]];
+  }
+  std::vector<Candidate> candidates(frames_own.begin(), frames_own.end());
+  double guest_score = 0;
+  if (beside.guest) {
+    candidates.push_back(*beside.guest);
+    guest_score = hypothesis_score(candidates, frames_own.size(), weights);
+    with_prior.push_back(guest_score + beside.guest_log_prior);
+  }
+  const std::size_t hypothesis = preferred(with_prior, weights.hypothesis_margin);
+  if (hypothesis == returned.size()) {
+    returned.push_back(frames_own.size());
+    scores.push_back(guest_score);
+  } else {
+    candidates.resize(frames_own.size());
+  }
   const double lead = lead_elsewhere(candidates, returned, scores, hypothesis);
   Choice choice;
   choice.chosen = returned[hypothesis];
+  choice.switched = hypothesis != by_frame;
   const double logit =
       weights.closeness(closeness_features(candidates, choice.chosen, lead)).front();
   choice.probability = std::isfinite(logit) ? 1 / (1 + std::exp(-logit)) : 0;

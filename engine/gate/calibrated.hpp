@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -42,6 +43,16 @@ struct Choice {
   std::size_t chosen = 0;  ///< index among the candidates; ties go to the lower one
   double probability = 0;  ///< [0, 1] that its index error is below kCloseError_m, either way round
   std::array<float, kNodes> sigma_m{};  ///< 68 % of nodes are off by less, 95 % by less than twice
+  bool switched = false;  ///< without what is known beside the frame it would be another one
+};
+
+/// What is known beside the frame. It decides with the scores; the probability and the sigma of the
+/// chosen one are the frame's alone.
+struct Beside {
+  std::vector<double> log_prior{};   ///< [candidates] what speaks for each; empty: nothing does
+  std::optional<Candidate> guest{};  ///< a hypothesis that the frame did not bring forth, as if it
+                                     ///< came after the candidates; they do not count it
+  double guest_log_prior = 0;
 };
 
 /// [hypotheses] index of the candidate that each would return: its draw of highest score where that
@@ -65,9 +76,9 @@ struct Choice {
                                     std::span<const double> scores, std::size_t chosen);
 
 /// `candidates` is not empty, begins with the best prior, and lists a prior at the index of each
-/// hypothesis.
+/// hypothesis. The guest's index is the number of candidates.
 [[nodiscard]] Choice choose_calibrated(std::span<const Candidate> candidates,
-                                       const GateWeights& weights);
+                                       const GateWeights& weights, const Beside& beside = {});
 [[nodiscard]] Choice choose_calibrated(std::span<const Candidate> candidates);
 
 }  // namespace flowdlo::gate

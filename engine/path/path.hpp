@@ -35,6 +35,8 @@ struct Traversals {
 struct TraceConfig {
   int alternatives = 3;      ///< kept beside the best
   double rope_length_m = 0;  ///< known length; 0: unknown
+  std::vector<Eigen::Vector2f> ends{};  ///< where ends are known to be: (x / z, y / z) of the
+                                        ///< camera frame, two at most
 };
 
 /// The ropes of one mask, each as one path.

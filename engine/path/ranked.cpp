@@ -57,6 +57,18 @@ void weigh_length(std::vector<Path>& paths, const Frame& frame, double rope_leng
                    [](const Path& a, const Path& b) { return a.score > b.score; });
 }
 
+// Directions of the camera frame as places in the region's own pixels.
+std::vector<Eigen::Vector2f> places_of(const std::vector<Eigen::Vector2f>& directions,
+                                       const Region& region, const Intrinsics& camera) {
+  std::vector<Eigen::Vector2f> places;
+  for (const Eigen::Vector2f& direction : directions) {
+    places.emplace_back(
+        camera.fx * direction.x() + camera.cx - static_cast<float>(region.offset_px.x),
+        camera.fy * direction.y() + camera.cy - static_cast<float>(region.offset_px.y));
+  }
+  return places;
+}
+
 // The distinct traversals as paths, best first; the long axis where there are none.
 std::vector<Path> ranked_paths(const Strands& strands, const Region& region, const Frame& frame,
                                const TraceConfig& config) {
@@ -64,7 +76,8 @@ std::vector<Path> ranked_paths(const Strands& strands, const Region& region, con
   const auto bonds = make_bonds(strands, region, frame);
   const int candidates = config.rope_length_m > 0 ? kLengthCandidates : 2;
   const int count = std::max(candidates, config.alternatives + 1);
-  for (const Traversal& traversal : search(strands, bonds, count)) {
+  const auto ends = places_of(config.ends, region, frame.intrinsics);
+  for (const Traversal& traversal : search(strands, bonds, count, ends)) {
     Path path = assemble(traversal, strands, region, frame);
     if (path.points_px.size() >= 2) paths.push_back(std::move(path));
   }

@@ -1,6 +1,7 @@
 #include "path/search.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <map>
 #include <queue>
@@ -12,6 +13,7 @@
 namespace flowdlo::path {
 namespace {
 
+constexpr float kEndReach = 2;  // widths within which a place means an end
 constexpr std::uint64_t kMix = 0x9E3779B97F4A7C15ULL;
 constexpr std::size_t kMostStates = 24000;
 constexpr std::size_t kBeamWidth = 24;
@@ -27,7 +29,8 @@ struct State {
 
 class Searcher {
  public:
-  Searcher(const Strands& strands, const std::vector<std::vector<Bond>>& bonds, int count)
+  Searcher(const Strands& strands, const std::vector<std::vector<Bond>>& bonds, int count,
+           const std::vector<Eigen::Vector2f>& ends)
       : strands_(strands),
         bonds_(bonds),
         count_(static_cast<std::size_t>(count)),
@@ -45,6 +48,7 @@ class Searcher {
       total_ += uncovered_[s];
       total_bound_ += bound_[s];
     }
+    for (int end = 0; end < static_cast<int>(2 * n); ++end) stop_.push_back(stop_cost(end, ends));
   }
 
   std::vector<Traversal> run() {
@@ -68,15 +72,23 @@ class Searcher {
     visits_.clear();
   }
 
-  [[nodiscard]] float stop_cost(int end) const { return path::stop_cost(strands_.end(end)); }
+  [[nodiscard]] float stop_cost(int end, const std::vector<Eigen::Vector2f>& known) const {
+    const float cost = path::stop_cost(strands_.end(end));
+    if (known.empty()) return cost;
+    float near = 0;
+    for (const Eigen::Vector2f& place : known) {
+      const float off = (strands_.end(end).point_px - place).norm() / strands_.scale_px;
+      near = std::max(near, std::exp(-0.5F * off * off / (kEndReach * kEndReach)));
+    }
+    return (1 - near) * (cost + kElsewhere);
+  }
   [[nodiscard]] float goal_cost(const State& state) const {
-    return state.paid + stop_cost(state.enter ^ 1) + state.left;
+    return state.paid + stop_[state.enter ^ 1] + state.left;
   }
 
   int push_start(int enter) {
     const std::size_t s = static_cast<std::size_t>(enter) / 2;
-    states_.push_back(
-        {-1, enter, stop_cost(enter), total_ - uncovered_[s], total_bound_ - bound_[s]});
+    states_.push_back({-1, enter, stop_[enter], total_ - uncovered_[s], total_bound_ - bound_[s]});
     used_.resize(used_.size() + words_, 0);
     used_[used_.size() - words_ + s / 64] |= Word{1} << (s % 64);
     return static_cast<int>(states_.size()) - 1;
@@ -196,6 +208,7 @@ class Searcher {
   std::size_t count_;
   std::size_t words_;
   std::vector<float> uncovered_;  // [strands] cost of leaving it out
+  std::vector<float> stop_;       // [strands, 2] cost of the rope's ending there
   std::vector<float> bound_;      // [strands] least cost of entering it, or of leaving it out
   float total_ = 0;
   float total_bound_ = 0;
@@ -209,8 +222,8 @@ class Searcher {
 }  // namespace
 
 std::vector<Traversal> search(const Strands& strands, const std::vector<std::vector<Bond>>& bonds,
-                              int count) {
-  return Searcher(strands, bonds, count).run();
+                              int count, const std::vector<Eigen::Vector2f>& ends) {
+  return Searcher(strands, bonds, count, ends).run();
 }
 
 }  // namespace flowdlo::path

@@ -7,6 +7,8 @@
 #include <vector>
 
 #include "flowdlo/centerline.hpp"
+#include "flowdlo/export.hpp"
+#include "flowdlo/result.hpp"
 
 namespace flowdlo {
 
@@ -25,7 +27,8 @@ struct DrawReport {
 /// A traversal that lost to the returned one, and how close it came. Those that trail hopelessly
 /// are not listed.
 struct Alternative {
-  Centerline nodes{};        ///< lifted like the prior, camera frame, metres
+  Centerline nodes{};        ///< lifted like the prior, camera frame, metres; each turned by the
+                             ///< hints for itself, as Estimate::nodes
   float score = 0;           ///< how well it explains mask and depth; comparable within a frame
   float mask_agreement = 0;  ///< S_M, Eq. (3.32)
 };
@@ -74,8 +77,13 @@ struct Timings {
   std::vector<std::pair<std::string, double>> device_ms;
 };
 
+/// The most points that Estimate::curve() gives.
+inline constexpr int kMostCurvePoints = 65536;
+
 struct Estimate {
-  Centerline nodes{};                          ///< [64, 3] end to end, camera frame, metres
+  /// [64, 3] end to end, camera frame, metres. Node 0 is the end of smaller x (then y, then z)
+  /// where no hint says otherwise (hints.hpp). `support` and `sigma_m` have the same order.
+  Centerline nodes{};
   std::array<std::uint8_t, kNodes> support{};  ///< h_i, Eq. (3.6): 1 where a visible point backs it
   /// [64] metres. Calibrated gate: 68 % of nodes are nearer to the truth than this and 95 % nearer
   /// than twice this, doubt about the traversal included. Thesis gate: not calibrated.
@@ -97,7 +105,17 @@ struct Estimate {
   float prior_mask_agreement = 0;         ///< S_M of the prior
   std::vector<DrawReport> draws;          ///< one for each draw
   std::vector<Alternative> alternatives;  ///< best first; may be empty
+  bool reversed = false;  ///< by a hint the nodes run against the order that they have without one
+  bool switched = false;  ///< by a hint another way through the mask was taken than without one;
+                          ///< of `ends` and the length only as far as they outvote the gate
   Timings timings;
+
+  /// [points, 3] of the smooth curve that the nodes stand for, uniform in its arclength, camera
+  /// frame, metres, from the first node to the last: 64 chords cut small loops short. It goes
+  /// through every node; nodes in one place count once, and if all are, so are the points. Fails
+  /// with kBadInput where `points` is not 2..kMostCurvePoints or a node is not finite, and with
+  /// kOutOfMemory.
+  [[nodiscard]] FLOWDLO_EXPORT Result<std::vector<Point3>> curve(int points) const;
 };
 
 /// Where one rope passes over another, or over itself, in the image.
@@ -131,7 +149,8 @@ struct SeenStrands {
 };
 
 /// The tensors behind one estimate, for parity tests and for the curious. Shapes outermost first;
-/// D draws, camera frame, metres unless said otherwise.
+/// D draws, camera frame, metres unless said otherwise. No hint turns them: node 0 is the end of
+/// smaller x.
 struct Tensors {
   int draws = 0;
   int field_width = 0;                      ///< W / 2

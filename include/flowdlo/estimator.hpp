@@ -8,6 +8,7 @@
 #include "flowdlo/estimate.hpp"
 #include "flowdlo/export.hpp"
 #include "flowdlo/frame.hpp"
+#include "flowdlo/hints.hpp"
 #include "flowdlo/result.hpp"
 
 namespace flowdlo {
@@ -29,10 +30,16 @@ class FLOWDLO_EXPORT Estimator {
   /// The same, and copies every tensor of spec section 3 (`--tensors`) to `tensors`.
   [[nodiscard]] Result<Estimate> estimate(const Frame& frame, Tensors& tensors);
 
+  /// With what the caller knows beside the frame. Fails as well with kBadInput, naming every fault
+  /// of `hints`. Without any hint the same bits as estimate(frame).
+  [[nodiscard]] Result<Estimate> estimate(const Frame& frame, const Hints& hints);
+  [[nodiscard]] Result<Estimate> estimate(const Frame& frame, const Hints& hints, Tensors& tensors);
+
   /// Each rope of the frame on its own: Config::ropes of them, or one for each label that
-  /// Frame::instances has on the mask. Takes as long as estimate() for each. With Config::ropes = 1
-  /// and no labels the one rope is that of estimate(). Fails as estimate() does, and with kNoPath
-  /// where there are more than kMostRopes, or fewer than asked for.
+  /// Frame::instances has on the mask. Takes as long as estimate() for each; Config::budget_ms is
+  /// for all of them. With Config::ropes = 1 and no labels the one rope is that of estimate().
+  /// Fails as estimate() does, and with kNoPath where there are more than kMostRopes, or fewer than
+  /// asked for.
   [[nodiscard]] Result<Ropes> estimate_ropes(const Frame& frame);
 
   /// "cpu", or the name of the Vulkan device in use. Moved from: empty.
@@ -54,7 +61,7 @@ class FLOWDLO_EXPORT Estimator {
     void operator()(Impl* impl) const noexcept;
   };
   FLOWDLO_HIDDEN explicit Estimator(std::unique_ptr<Impl> impl);
-  FLOWDLO_HIDDEN Result<Estimate> estimate(const Frame& frame, Tensors* tensors);
+  FLOWDLO_HIDDEN Result<Estimate> run(const Frame& frame, const Hints& hints, Tensors* tensors);
   FLOWDLO_HIDDEN [[nodiscard]] Result<void> usable() const;
   std::unique_ptr<Impl, LetGo> impl_;
 };

@@ -231,5 +231,45 @@ TEST(FittedGate, KeepsTheCleanPriorAgainstAWorseRunnerUp) {
   EXPECT_EQ(choose_calibrated(std::vector{straight(0), other}).chosen, 0U);
 }
 
+/// Two of which the first explains a little more: scores 0 and -0.1.
+std::vector<Candidate> nearly_level() {
+  return {straight(0), with_recall(straight(0.05F, 1), 0.97F)};
+}
+
+TEST(CalibratedGate, WhatIsKnownBesideTheFrameDecidesWhereItDoesNot) {
+  const Choice choice = choose_calibrated(nearly_level(), by_recall(), {.log_prior = {-1, 0}});
+  EXPECT_EQ(choice.chosen, 1U);
+  EXPECT_TRUE(choice.switched);
+  const Choice confirmed = choose_calibrated(nearly_level(), by_recall(), {.log_prior = {0, -1}});
+  EXPECT_EQ(confirmed.chosen, 0U);
+  EXPECT_FALSE(confirmed.switched);
+}
+
+TEST(CalibratedGate, AScoreThatIsClearOverrulesWhatIsKnownBesideTheFrame) {
+  const Choice choice = choose_calibrated(nearly_level(), by_recall(), {.log_prior = {-0.05, 0}});
+  EXPECT_EQ(choice.chosen, 0U);
+  EXPECT_FALSE(choice.switched);
+}
+
+TEST(CalibratedGate, AGuestIsTakenByItsScoreAndWhatSpeaksForIt) {
+  const std::vector candidates{with_recall(straight(0), 0.9F)};
+  Beside beside{.guest = straight(0.05F, 1)};
+  const Choice taken = choose_calibrated(candidates, by_recall(), beside);
+  EXPECT_EQ(taken.chosen, 1U);
+  EXPECT_TRUE(taken.switched);
+  beside.guest_log_prior = -1;
+  EXPECT_EQ(choose_calibrated(candidates, by_recall(), beside).chosen, 0U);
+}
+
+TEST(CalibratedGate, AGuestThatIsNotTakenIsNotCounted) {
+  const std::vector candidates{straight(0), with_recall(straight(0.05F, 1), 0.8F)};
+  const Choice alone = choose_calibrated(candidates);
+  const Choice visited = choose_calibrated(candidates, fitted_weights(),
+                                           {.guest = straight(0.0001F, 2), .guest_log_prior = -99});
+  EXPECT_EQ(visited.chosen, alone.chosen);
+  EXPECT_EQ(visited.probability, alone.probability);
+  EXPECT_EQ(visited.sigma_m, alone.sigma_m);
+}
+
 }  // namespace
 }  // namespace flowdlo::gate

@@ -1,9 +1,12 @@
 #include "path/search.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <random>
+#include <set>
 
 namespace flowdlo::path {
 namespace {
@@ -115,6 +118,53 @@ TEST(Search, AnswersWithinItsBoundsForHundredsOfStrands) {
     }
   }
   EXPECT_FALSE(search(strands, bonds, 4).empty());
+}
+
+/// Three strands that meet at side 1, in any pairs at the same price; each tip lies 100 px out.
+struct Fork {
+  Fork() : strands(strands_of(3, 100)), bonds(6) {
+    const std::array<Eigen::Vector2f, 3> tips{{{100, 0}, {0, 100}, {-100, 0}}};
+    for (std::size_t s = 0; s < 3; ++s) {
+      strands.list[s].ends[0].point_px = tips[s];
+      for (std::size_t other = s + 1; other < 3; ++other) {
+        join(bonds, static_cast<int>(2 * s + 1), static_cast<int>(2 * other + 1), 1);
+      }
+    }
+  }
+  /// The tips between which the cheapest traversal runs.
+  [[nodiscard]] std::set<int> tips(const std::vector<Eigen::Vector2f>& ends) const {
+    const auto enters = search(strands, bonds, 1, ends).front().enters;
+    return {enters.front(), enters.back() ^ 1};
+  }
+
+  Strands strands;
+  std::vector<std::vector<Bond>> bonds;
+};
+
+TEST(Search, EndsWhereTheEndsAreKnownToBe) {
+  const Fork fork;
+  EXPECT_EQ(fork.tips({{100, 0}, {0, 100}}), (std::set{0, 2}));
+  EXPECT_EQ(fork.tips({{-95, 5}, {0, 90}}), (std::set{2, 4}));
+  EXPECT_EQ(fork.tips({{-100, 0}, {100, 0}}), (std::set{0, 4}));
+}
+
+TEST(Search, OneKnownEndLeavesTheOtherFree) {
+  for (int tip = 0; tip < 3; ++tip) {
+    const Fork fork;
+    const auto end = fork.strands.list[static_cast<std::size_t>(tip)].ends[0].point_px;
+    EXPECT_THAT(fork.tips({end}), testing::Contains(2 * tip));
+  }
+}
+
+TEST(Search, EndsFarFromEveryStrandChangeNothingButTheCost) {
+  const Fork fork;
+  const auto plain = search(fork.strands, fork.bonds, 3);
+  const auto asked = search(fork.strands, fork.bonds, 3, {{4000, 4000}});
+  ASSERT_EQ(plain.size(), asked.size());
+  for (std::size_t i = 0; i < plain.size(); ++i) {
+    EXPECT_EQ(plain[i].enters, asked[i].enters);
+    EXPECT_FLOAT_EQ(asked[i].cost, plain[i].cost + 2 * kElsewhere);
+  }
 }
 
 }  // namespace

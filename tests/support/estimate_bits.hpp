@@ -29,8 +29,10 @@ inline EstimateBits bits_of(const Estimate& estimate) {
   append(bits, estimate.nodes);
   append(bits, estimate.support);
   append(bits, estimate.sigma_m);
-  for (const int value : {estimate.readings, static_cast<int>(estimate.source), estimate.draw,
-                          static_cast<int>(estimate.calibrated)}) {
+  for (const int value :
+       {estimate.readings, static_cast<int>(estimate.source), estimate.draw,
+        static_cast<int>(estimate.calibrated), static_cast<int>(estimate.reversed),
+        static_cast<int>(estimate.switched)}) {
     append(bits, value);
   }
   const OneRope& one = estimate.one_rope;

@@ -1,11 +1,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <opencv2/core.hpp>
 #include <ostream>
 #include <set>
+#include <stdexcept>
 #include <string>
 
 #include "frame/centerline_csv.hpp"
@@ -123,6 +125,54 @@ TEST(EstimateCommand, NumbersOfRopesThatCannotBeAreWrongUsage) {
     EXPECT_EQ(run_estimate(scratch.path(), {frame, "--ropes", number}).exit_code, 2) << number;
   }
   EXPECT_EQ(run_estimate(scratch.path(), {frame, "--ropes", "2", "--tensors"}).exit_code, 2);
+}
+
+Centerline nodes_in(const fs::path& scratch) {
+  const auto text = test::read_text(results(scratch, "rope") / "centerline.csv");
+  const auto nodes = frame::parse_centerline(text, "centerline.csv");
+  if (!nodes) throw std::runtime_error(nodes.error().message);
+  return *nodes;
+}
+
+TEST(EstimateCommand, HintsTurnTheNodesAndSaySo) {
+  const TemporaryFolder scratch;
+  const auto frame = write_frame(scratch.path()).string();
+  ASSERT_EQ(run_estimate(scratch.path(), {frame}).exit_code, 0);
+  const Centerline plain = nodes_in(scratch.path());
+  EXPECT_EQ(estimate_json_of(scratch.path(), "rope")["reversed"], false);
+  const auto outcome =
+      run_estimate(scratch.path(), {"--first-end", "79,30", "--end", "79,30", frame});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  Centerline turned = nodes_in(scratch.path());
+  EXPECT_EQ(estimate_json_of(scratch.path(), "rope")["reversed"], true);
+  EXPECT_GT(turned.front().x, turned.back().x);
+  fs::rename(results(scratch.path(), "rope") / "estimate.json", scratch.path() / "before.json");
+  ASSERT_EQ(
+      run_estimate(scratch.path(), {frame, "--previous", (scratch.path() / "before.json").string()})
+          .exit_code,
+      0);
+  EXPECT_GT(nodes_in(scratch.path()).front().x, nodes_in(scratch.path()).back().x);
+  std::reverse(turned.begin(), turned.end());
+  EXPECT_EQ(turned, plain);
+}
+
+TEST(EstimateCommand, APlaceFarOutsideOfTheFrameIsAFaultOfThatFrame) {
+  const TemporaryFolder scratch;
+  const auto frame = write_frame(scratch.path()).string();
+  const auto outcome = run_estimate(scratch.path(), {frame, "--first-end", "5000,30"});
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_EQ(estimate_json_of(scratch.path(), "rope")["status"], "bad_input");
+  EXPECT_THAT(outcome.err, HasSubstr("Hints.first_end"));
+}
+
+TEST(EstimateCommand, TheCurveIsAsDenseAsAsked) {
+  const TemporaryFolder scratch;
+  const auto frame = write_frame(scratch.path()).string();
+  ASSERT_EQ(run_estimate(scratch.path(), {frame, "--curve", "200"}).exit_code, 0);
+  const auto text = test::read_text(results(scratch.path(), "rope") / "curve.csv");
+  EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 201);
+  ASSERT_EQ(run_estimate(scratch.path(), {frame}).exit_code, 0);
+  EXPECT_FALSE(fs::exists(results(scratch.path(), "rope") / "curve.csv"));
 }
 
 TEST(EstimateCommand, UnknownKindOfPriorAndNegativeLengthAreWrongUsage) {

@@ -45,6 +45,19 @@ TEST(EstimateJson, HasTheFieldsOfTheContract) {
   EXPECT_DOUBLE_EQ(json["device_timings_ms"]["step"], 9.0);
 }
 
+TEST(EstimateJson, HoldsTheNodesAndWhatTheHintsDid) {
+  auto estimate = test::sample_estimate();
+  auto json = Json::parse(estimate_json(estimate, kProvenance));
+  ASSERT_EQ(json["nodes_m"].size(), 64U);
+  EXPECT_EQ(json["nodes_m"][0], (Json{-0.15, 0.0, 0.5}));
+  EXPECT_EQ(json["reversed"], false);
+  EXPECT_EQ(json["switched"], false);
+  estimate.reversed = true;
+  EXPECT_EQ(Json::parse(estimate_json(estimate, kProvenance))["reversed"], true);
+  estimate.switched = true;
+  EXPECT_EQ(Json::parse(estimate_json(estimate, kProvenance))["switched"], true);
+}
+
 TEST(EstimateJson, NamesTheGateThatGivesConfidenceItsMeaning) {
   auto estimate = test::sample_estimate();
   EXPECT_EQ(Json::parse(estimate_json(estimate, kProvenance))["gate"], "thesis");

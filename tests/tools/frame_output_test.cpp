@@ -73,6 +73,15 @@ TEST_F(FrameOutput, HoldsTheTensorsWhenAskedFor) {
   EXPECT_EQ(files().size(), 3 + kTensorFileNames.size());
 }
 
+TEST_F(FrameOutput, HoldsTheCurveWhenAskedForAndForgetsItOtherwise) {
+  const std::vector<Point3> curve{{0, 0, 1}, {0.25F, 0, 1}};
+  ASSERT_TRUE(write_estimate(out(), frame_.frame(), test::sample_estimate(), {.curve = curve},
+                             kProvenance));
+  EXPECT_EQ(test::read_text(out() / "curve.csv"), "x,y,z\n0,0,1\n0.25,0,1\n");
+  ASSERT_TRUE(write());
+  EXPECT_THAT(files(), ElementsAre("centerline.csv", "estimate.json", "overlay.png"));
+}
+
 TEST_F(FrameOutput, TensorsOfAnEarlierRunDoNotStay) {
   fs::create_directories(out());
   for (const char* name : kTensorFileNames) test::write_text(out() / name, "old");

@@ -58,13 +58,17 @@ TEST_P(WrongOption, EndsWithTwoAndWritesNoResult) {
   EXPECT_FALSE(fs::exists(scratch.path() / "out" / "rope"));
 }
 
-INSTANTIATE_TEST_SUITE_P(Usage, WrongOption,
-                         testing::Values(Arguments{"--steps", "0"}, Arguments{"--steps", "65"},
-                                         Arguments{"--steps", "ten"}, Arguments{"--draws", "0"},
-                                         Arguments{"--draws", "65"}, Arguments{"--seed", "-1"},
-                                         Arguments{"--seed", "1.5"}, Arguments{"--threads", "-1"},
-                                         Arguments{"--weights", "none.fdw"},
-                                         Arguments{"--device", "Abacus 3000"}));
+INSTANTIATE_TEST_SUITE_P(
+    Usage, WrongOption,
+    testing::Values(Arguments{"--steps", "0"}, Arguments{"--steps", "65"},
+                    Arguments{"--steps", "ten"}, Arguments{"--draws", "0"},
+                    Arguments{"--draws", "65"}, Arguments{"--seed", "-1"},
+                    Arguments{"--seed", "1.5"}, Arguments{"--threads", "-1"},
+                    Arguments{"--weights", "none.fdw"}, Arguments{"--first-end", "12"},
+                    Arguments{"--first-end", "12,nan"}, Arguments{"--end", "12;7"},
+                    Arguments{"--end", "1,2", "--end", "three,4"},
+                    Arguments{"--previous", "none.json"}, Arguments{"--curve", "1"},
+                    Arguments{"--curve", "65537"}, Arguments{"--device", "Abacus 3000"}));
 
 TEST(Usage, FramesOfOneNameAreRefusedBeforeAnyWork) {
   const TemporaryFolder scratch;

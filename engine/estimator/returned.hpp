@@ -1,0 +1,37 @@
+// Returned: what the estimate will be, as either gate has it.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include "estimator/conditions.hpp"
+#include "estimator/second_look.hpp"
+#include "flow/sampler.hpp"
+#include "flowdlo/frame.hpp"
+#include "flowdlo/hints.hpp"
+#include "gate/candidate.hpp"
+#include "gate/gate.hpp"
+
+namespace flowdlo::estimator {
+
+struct Returned {
+  int draw = -1;  ///< -1: the prior of the hypothesis
+  std::size_t hypothesis = 0;
+  float confidence = 0;
+  std::array<float, kNodes> sigma_m{};
+  bool switched = false;  ///< by a hint it is another hypothesis than without one
+};
+
+/// Eq. (3.33). `assigned` is [D], the hypothesis that each draw was conditioned on.
+[[nodiscard]] Returned by_thesis(const std::vector<Hypothesis>& hypotheses,
+                                 const flow::Prediction& prediction, const gate::Verdict& verdict,
+                                 const std::vector<int>& assigned);
+
+/// What the fitted score and the hints prefer among the candidates, `list_candidates`. Where that
+/// is the rope as it was in the frame before, it joins the hypotheses of `look`.
+[[nodiscard]] Returned by_score(const std::vector<gate::Candidate>& candidates, const Hints& hints,
+                                const Conditions& conditions, const Frame& frame,
+                                double rope_length_m, SecondLook& look);
+
+}  // namespace flowdlo::estimator

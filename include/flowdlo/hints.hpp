@@ -1,0 +1,48 @@
+// Hints: what a caller knows beside the frame: ends of the rope, its length, the frame before.
+#pragma once
+
+#include <optional>
+#include <variant>
+#include <vector>
+
+#include "flowdlo/centerline.hpp"
+
+namespace flowdlo {
+
+/// A place in the image; the centre of the top left pixel is (0, 0).
+struct Pixel {
+  float u = 0;  ///< column
+  float v = 0;  ///< row
+
+  friend bool operator==(const Pixel&, const Pixel&) = default;
+};
+
+/// Where an end of the rope is: a pixel of the frame, at most one image beside it, or a point of
+/// the camera frame, metres, in front of the camera (z > 0).
+using Place = std::variant<Pixel, Point3>;
+
+/// All of it may be left out. Hints decide two things and no other: which way through the mask is
+/// taken, and which of its ends comes first. `confidence` and `sigma_m` stay what the frame alone
+/// says. Where hints say nothing, node 0 is the end of smaller x; of smaller y, then z, where those
+/// are equal (the rule of the thesis, Sec. 3.3). That rule looks at the frame alone: where the ends
+/// lie one above the other, noise exchanges them.
+struct Hints {
+  /// The end nearest to it is node 0: of `nodes`, and of each alternative. It says nothing of the
+  /// way through the mask: a place that is an end belongs into `ends` as well.
+  std::optional<Place> first_end{};
+
+  /// Two at most. Evidence, not a rule: a way that ends elsewhere has to explain the frame that
+  /// much better. With one, the other end is free.
+  std::vector<Place> ends{};
+
+  /// Of the whole rope, metres; 0: unknown. Takes the place of Config::rope_length_m.
+  std::optional<double> rope_length_m{};
+
+  /// The nodes of the frame before, Estimate::nodes. The estimate keeps their order, and of ways
+  /// that the frame does not tell apart the one near them is taken. One that lies elsewhere by some
+  /// rope widths is no evidence, nor is one with a node that is not finite. `first_end` wins over
+  /// the order. With the thesis' gate they keep the order and no more.
+  std::optional<Centerline> previous{};
+};
+
+}  // namespace flowdlo

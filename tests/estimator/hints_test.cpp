@@ -1,0 +1,295 @@
+// Hints: what is refused, which end comes first, and what decides where a frame does not.
+#include "flowdlo/hints.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <opencv2/imgproc.hpp>
+#include <stdexcept>
+
+#include "flowdlo/estimator.hpp"
+#include "geometry/camera.hpp"
+#include "geometry/polyline.hpp"
+#include "support/estimate_bits.hpp"
+#include "support/wave_frame.hpp"
+
+namespace flowdlo {
+namespace {
+
+using testing::bits_of;
+using ::testing::HasSubstr;
+using testing::WaveFrame;
+
+constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+
+/// Three arms of 10 px from one place: any two may be the rope, and the third a thing beside it.
+struct Star {
+  static constexpr int kWidth = 320;
+  static constexpr int kHeight = 240;
+  static constexpr std::array<Pixel, 3> kTips{{{160, 40}, {255, 175}, {65, 175}}};
+
+  Star() : mask(cv::Mat::zeros(kHeight, kWidth, CV_8U)) {
+    for (const Pixel& tip : kTips) {
+      cv::line(mask, {160, 120}, {static_cast<int>(tip.u), static_cast<int>(tip.v)},
+               cv::Scalar(255), 10);
+    }
+    for (int i = 0; i < kWidth * kHeight; ++i) {
+      depth_m.push_back(mask.data[i] != 0 ? 0.5F : 0.51F);
+    }
+  }
+
+  [[nodiscard]] Frame frame() const {
+    return {kWidth, kHeight, kCamera, depth_m, {mask.data, mask.total()}, {}};
+  }
+  static constexpr Intrinsics kCamera{300, 300, 160, 120};
+  cv::Mat mask;
+  std::vector<float> depth_m;
+};
+
+Pixel seen_at(const Point3& node, const Intrinsics& camera) {
+  const auto place = geometry::project(camera, node);
+  return {place.x(), place.y()};
+}
+
+double pixels_between(const Pixel& a, const Pixel& b) { return std::hypot(a.u - b.u, a.v - b.v); }
+
+Centerline reversed(Centerline nodes) {
+  std::reverse(nodes.begin(), nodes.end());
+  return nodes;
+}
+
+class Hinted : public ::testing::Test {
+ protected:
+  Estimate of(const Frame& frame, const Hints& hints = {}) {
+    auto estimate = estimator_.estimate(frame, hints);
+    if (!estimate) throw std::runtime_error(estimate.error().message);
+    return *std::move(estimate);
+  }
+  Error refused(const Hints& hints) {
+    const auto estimate = estimator_.estimate(wave_.frame(), hints);
+    return estimate ? Error{ErrorCode::kInternal, "accepted"} : estimate.error();
+  }
+
+  WaveFrame wave_;
+  Star star_;
+
+ private:
+  static Estimator make() {
+    auto estimator = Estimator::create(
+        {.weights = FLOWDLO_DEFAULT_WEIGHTS, .device = "cpu", .quality = Quality::kFast});
+    if (!estimator) throw std::runtime_error(estimator.error().message);
+    return *std::move(estimator);
+  }
+  Estimator estimator_ = make();
+};
+
+TEST_F(Hinted, WithoutAnyHintNothingChanges) {
+  auto plain = Estimator::create(
+      {.weights = FLOWDLO_DEFAULT_WEIGHTS, .device = "cpu", .quality = Quality::kFast});
+  ASSERT_TRUE(plain);
+  const auto estimate = plain->estimate(star_.frame());
+  ASSERT_TRUE(estimate);
+  const Estimate hinted = of(star_.frame());
+  EXPECT_EQ(bits_of(hinted), bits_of(*estimate));
+  EXPECT_FALSE(hinted.reversed);
+  EXPECT_FALSE(hinted.switched);
+}
+
+TEST_F(Hinted, TheEndNearestToThePixelIsNodeZero) {
+  const Estimate plain = of(wave_.frame());
+  const Pixel left = seen_at(plain.nodes.front(), wave_.camera);
+  const Pixel right = seen_at(plain.nodes.back(), wave_.camera);
+  const Estimate same = of(wave_.frame(), {.first_end = left});
+  EXPECT_EQ(same.nodes, plain.nodes);
+  EXPECT_FALSE(same.reversed);
+  const Estimate turned = of(wave_.frame(), {.first_end = Pixel{right.u - 30, right.v + 20}});
+  EXPECT_EQ(turned.nodes, reversed(plain.nodes));
+  EXPECT_TRUE(turned.reversed);
+  EXPECT_FALSE(turned.switched);
+}
+
+TEST_F(Hinted, TheEndNearestToThePointIsNodeZero) {
+  const Estimate plain = of(wave_.frame());
+  EXPECT_EQ(of(wave_.frame(), {.first_end = plain.nodes.back()}).nodes, reversed(plain.nodes));
+  EXPECT_EQ(of(wave_.frame(), {.first_end = plain.nodes.front()}).nodes, plain.nodes);
+}
+
+TEST_F(Hinted, WhatBelongsToTheNodesIsTurnedWithThem) {
+  std::fill(wave_.depth_m.begin(), wave_.depth_m.begin() + 320 * 110, 0.0F);  // crests
+  const Estimate plain = of(wave_.frame());
+  const Estimate turned = of(wave_.frame(), {.first_end = plain.nodes.back()});
+  for (std::size_t i = 0; i < kNodes; ++i) {
+    EXPECT_EQ(turned.support[i], plain.support[kNodes - 1 - i]);
+    EXPECT_EQ(turned.sigma_m[i], plain.sigma_m[kNodes - 1 - i]);
+  }
+  auto mirrored = plain.sigma_m;
+  std::reverse(mirrored.begin(), mirrored.end());
+  ASSERT_NE(plain.sigma_m, mirrored) << "otherwise nothing was seen";
+}
+
+TEST_F(Hinted, EachAlternativeIsTurnedForItself) {
+  const Estimate plain = of(star_.frame());
+  ASSERT_FALSE(plain.alternatives.empty());
+  for (const Pixel& tip : Star::kTips) {
+    for (const auto& other : of(star_.frame(), {.first_end = tip}).alternatives) {
+      EXPECT_LE(pixels_between(seen_at(other.nodes.front(), Star::kCamera), tip),
+                pixels_between(seen_at(other.nodes.back(), Star::kCamera), tip));
+    }
+  }
+}
+
+TEST_F(Hinted, TheOrderOfTheFrameBeforeIsKept) {
+  const Estimate plain = of(wave_.frame());
+  const Estimate kept = of(wave_.frame(), {.previous = reversed(plain.nodes)});
+  EXPECT_EQ(kept.nodes, reversed(plain.nodes));
+  EXPECT_TRUE(kept.reversed);
+  EXPECT_FALSE(of(wave_.frame(), {.previous = plain.nodes}).reversed);
+}
+
+TEST_F(Hinted, TheFirstEndWinsOverTheOrderOfTheFrameBefore) {
+  const Estimate plain = of(wave_.frame());
+  const Estimate estimate =
+      of(wave_.frame(), {.first_end = plain.nodes.front(), .previous = reversed(plain.nodes)});
+  EXPECT_EQ(estimate.nodes, plain.nodes);
+}
+
+TEST_F(Hinted, TensorsKeepTheirOrder) {
+  auto estimator = Estimator::create(
+      {.weights = FLOWDLO_DEFAULT_WEIGHTS, .device = "cpu", .quality = Quality::kFast});
+  ASSERT_TRUE(estimator);
+  Tensors plain;
+  Tensors hinted;
+  const auto estimate = estimator->estimate(wave_.frame(), plain);
+  ASSERT_TRUE(estimate);
+  ASSERT_TRUE(estimator->estimate(wave_.frame(), {.first_end = estimate->nodes.back()}, hinted));
+  EXPECT_EQ(bits_of(hinted), bits_of(plain));
+}
+
+TEST_F(Hinted, TheRopeEndsWhereBothEndsAreGiven) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Pixel& one = Star::kTips[i];
+    const Pixel& other = Star::kTips[(i + 1) % 3];
+    const Estimate estimate = of(star_.frame(), {.first_end = one, .ends = {one, other}});
+    EXPECT_LT(pixels_between(seen_at(estimate.nodes.front(), Star::kCamera), one), 12);
+    EXPECT_LT(pixels_between(seen_at(estimate.nodes.back(), Star::kCamera), other), 12);
+  }
+}
+
+TEST_F(Hinted, OneGivenEndLeavesTheOtherFree) {
+  for (const Pixel& tip : Star::kTips) {
+    const Estimate estimate = of(star_.frame(), {.first_end = tip, .ends = {tip}});
+    EXPECT_LT(pixels_between(seen_at(estimate.nodes.front(), Star::kCamera), tip), 12);
+  }
+}
+
+TEST_F(Hinted, EndsFarFromTheRopeDoNoHarm) {
+  const Estimate plain = of(wave_.frame());
+  const Estimate estimate = of(wave_.frame(), {.ends = {Pixel{160, 0}, Pixel{170, 0}}});
+  EXPECT_EQ(estimate.nodes, plain.nodes);
+}
+
+TEST_F(Hinted, AFrameThatLeavesItOpenFollowsTheFrameBefore) {
+  const Estimate plain = of(star_.frame());
+  const auto elsewhere = std::find_if(
+      plain.alternatives.begin(), plain.alternatives.end(), [&](const Alternative& alternative) {
+        return geometry::mean_distance(alternative.nodes, plain.nodes) > 0.02;
+      });
+  ASSERT_NE(elsewhere, plain.alternatives.end());
+  const Centerline& other = elsewhere->nodes;
+  const Estimate after = of(star_.frame(), {.previous = other});
+  EXPECT_LT(geometry::mean_distance(after.nodes, other), 0.005);
+  EXPECT_TRUE(after.switched);
+  EXPECT_FALSE(of(star_.frame(), {.previous = plain.nodes}).switched);
+}
+
+TEST_F(Hinted, AFrameThatIsClearOverrulesTheFrameBefore) {
+  const Estimate plain = of(wave_.frame());
+  Centerline half = plain.nodes;  // as if the rope had ended in the middle
+  for (std::size_t i = 0; i < kNodes; ++i) half[i] = plain.nodes[i / 2];
+  const Estimate estimate = of(wave_.frame(), {.previous = half});
+  EXPECT_EQ(estimate.nodes, plain.nodes);
+  EXPECT_FALSE(estimate.switched);
+  EXPECT_EQ(estimate.confidence, plain.confidence);
+}
+
+TEST_F(Hinted, ARopeThatMovedIsWhereItIsNow) {
+  const Estimate plain = of(wave_.frame());
+  Centerline beside = plain.nodes;
+  for (Point3& node : beside) node.y += 0.02F;
+  EXPECT_EQ(of(wave_.frame(), {.previous = beside}).nodes, plain.nodes);
+  for (Point3& node : beside) node = {5, 5, 2};
+  EXPECT_EQ(of(wave_.frame(), {.previous = beside}).nodes, plain.nodes);
+}
+
+TEST_F(Hinted, AFrameBeforeThatIsNotFiniteSaysNothing) {
+  const Estimate plain = of(star_.frame());
+  Centerline broken = reversed(plain.nodes);
+  broken[7].y = kNan;
+  EXPECT_EQ(bits_of(of(star_.frame(), {.previous = broken})), bits_of(plain));
+  broken.fill({std::numeric_limits<float>::infinity(), 0, -1});
+  EXPECT_EQ(bits_of(of(star_.frame(), {.previous = broken})), bits_of(plain));
+}
+
+TEST_F(Hinted, TheLengthOfOneFrameTakesThePlaceOfTheConfigs) {
+  const auto with_length = [&](double config_m, std::optional<double> hint_m) {
+    auto estimator = Estimator::create({.weights = FLOWDLO_DEFAULT_WEIGHTS,
+                                        .device = "cpu",
+                                        .quality = Quality::kFast,
+                                        .rope_length_m = config_m});
+    if (!estimator) throw std::runtime_error(estimator.error().message);
+    const auto estimate = estimator->estimate(star_.frame(), {.rope_length_m = hint_m});
+    if (!estimate) throw std::runtime_error(estimate.error().message);
+    return bits_of(*estimate);
+  };
+  const auto known = with_length(0.1, std::nullopt);
+  EXPECT_NE(known, with_length(0, std::nullopt));
+  EXPECT_EQ(known, with_length(0.7, 0.1));
+  EXPECT_EQ(with_length(0, std::nullopt), with_length(0.1, 0.0));
+}
+
+TEST_F(Hinted, EveryFaultIsNamed) {
+  const Error error = refused({.first_end = Pixel{kNan, 0},
+                               .ends = {Pixel{0, 9999}, Point3{0, 0, -1}, Pixel{}},
+                               .rope_length_m = -1});
+  EXPECT_EQ(error.code, ErrorCode::kBadInput);
+  EXPECT_THAT(error.message,
+              HasSubstr("Hints.first_end: expected a pixel with u from -320 to 640"));
+  EXPECT_THAT(error.message, HasSubstr("Hints.ends: expected 2 at most, got 3"));
+  EXPECT_THAT(error.message, HasSubstr("Hints.ends[0]: expected a pixel"));
+  EXPECT_THAT(error.message, HasSubstr("Hints.ends[1]: expected a point in front of the camera"));
+  EXPECT_THAT(error.message, HasSubstr("Hints.rope_length_m: expected metres"));
+  EXPECT_EQ(refused({.rope_length_m = std::numeric_limits<double>::infinity()}).code,
+            ErrorCode::kBadInput);
+  EXPECT_EQ(refused({.first_end = Point3{kNan, 0, 1}}).code, ErrorCode::kBadInput);
+}
+
+TEST(Curve, OfAnEstimateIsAsDenseAsAsked) {
+  Estimate estimate;
+  for (std::size_t i = 0; i < kNodes; ++i)
+    estimate.nodes[i] = {0.01F * static_cast<float>(i), 0, 1};
+  const auto curve = estimate.curve(512);
+  ASSERT_TRUE(curve);
+  EXPECT_EQ(curve->size(), 512U);
+  EXPECT_EQ(curve->front(), estimate.nodes.front());
+  EXPECT_EQ(curve->back(), estimate.nodes.back());
+}
+
+TEST(Curve, RefusesWhatIsNoNumberOfPointsAndNodesThatAreNotFinite) {
+  Estimate estimate;
+  for (const int points : {-1, 1, kMostCurvePoints + 1}) {
+    const auto curve = estimate.curve(points);
+    ASSERT_FALSE(curve);
+    EXPECT_EQ(curve.error().code, ErrorCode::kBadInput);
+    EXPECT_THAT(curve.error().message, HasSubstr("expected 2 to 65536"));
+  }
+  estimate.nodes[9].z = kNan;
+  const auto curve = estimate.curve(64);
+  ASSERT_FALSE(curve);
+  EXPECT_THAT(curve.error().message, HasSubstr("at node 9"));
+}
+
+}  // namespace
+}  // namespace flowdlo

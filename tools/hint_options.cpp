@@ -1,0 +1,75 @@
+#include "hint_options.hpp"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+#include <optional>
+#include <string_view>
+
+#include "files/shown_name.hpp"
+#include "previous_file.hpp"
+
+namespace flowdlo::tools {
+namespace {
+
+std::optional<float> number_of(std::string_view text) {
+  float number = 0;
+  const auto [end, fault] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (fault != std::errc() || end != text.data() + text.size()) return std::nullopt;
+  if (!std::isfinite(number)) return std::nullopt;
+  return number;
+}
+
+std::optional<Pixel> pixel_of(std::string_view text) {
+  const auto comma = text.find(',');
+  if (comma == std::string_view::npos) return std::nullopt;
+  const auto u = number_of(text.substr(0, comma));
+  const auto v = number_of(text.substr(comma + 1));
+  if (!u || !v) return std::nullopt;
+  return Pixel{*u, *v};
+}
+
+CLI::Validator a_pixel() {
+  return {[](const std::string& text) {
+            return pixel_of(text) ? std::string()
+                                  : fmt::format("expected column,row in pixels, got \"{}\"",
+                                                files::shown(text));
+          },
+          "U,V"};
+}
+
+}  // namespace
+
+void add_hint_options(CLI::App& command, HintArguments& arguments) {
+  command
+      .add_option("--first-end", arguments.first_end,
+                  "The end of the rope nearest to this pixel becomes node 0")
+      ->check(a_pixel())
+      ->type_name("U,V");
+  command
+      .add_option("--end", arguments.ends,
+                  "An end of the rope lies about here; once or twice, evidence for the way through "
+                  "the mask")
+      ->check(a_pixel())
+      ->allow_extra_args(false)
+      ->type_name("U,V");
+  command
+      .add_option("--previous", arguments.previous,
+                  "estimate.json of the frame before: keeps the order of the ends, and the way "
+                  "through the mask where the frame leaves it open")
+      ->type_name("FILE");
+}
+
+Result<Hints> hints_of(const HintArguments& arguments) {
+  Hints hints;
+  if (const auto pixel = pixel_of(arguments.first_end)) hints.first_end = *pixel;
+  for (const std::string& end : arguments.ends) hints.ends.emplace_back(*pixel_of(end));
+  if (arguments.previous.empty()) return hints;
+  const auto nodes = read_previous(arguments.previous);
+  if (!nodes) return Error{nodes.error().code, "--previous " + nodes.error().message};
+  hints.previous = *nodes;
+  return hints;
+}
+
+}  // namespace flowdlo::tools
