@@ -3,7 +3,10 @@
 #include <fmt/format.h>
 
 #include <cstddef>
+#include <cstdint>
+#include <optional>
 #include <utility>
+#include <vector>
 
 #include "estimator/parted.hpp"
 #include "estimator/rope_crossings.hpp"
@@ -27,19 +30,31 @@ Result<void> several_ropes(const Frame& frame, int ropes, const EstimateOne& one
   if (!parted) return parted.error();
   stage.lap(result.parting_ms);
   const std::size_t count = parted->paths.ropes.size();
+  std::vector<std::uint16_t> number(count + 1,
+                                    0);  // of each label among those that have an estimate
+  std::optional<Error> first_fault;
   for (std::size_t i = 0; i < count; ++i) {
     const RopeView view(*parted, i, frame);
     const path::Traversals traced = view.traversals();
     auto rope = one(view.frame(), &traced, 1 / static_cast<double>(count - i));
     if (!rope) {
-      return Error{rope.error().code,
-                   fmt::format("rope {} of {}: {}", i + 1, count, rope.error().message)};
+      if (rope.error().code == ErrorCode::kOutOfMemory) return rope.error();
+      if (rope.error().code == ErrorCode::kDeviceLost) return rope.error();
+      if (!first_fault) {
+        first_fault = Error{rope.error().code,
+                            fmt::format("rope {} of {}: {}", i + 1, count, rope.error().message)};
+      }
+      continue;
     }
     rope->closed = parted->paths.ropes[i].closed;
     rope->confidence *= told_apart(parted->paths.lead[i]);
     result.ropes.push_back(*std::move(rope));
+    number[i + 1] = static_cast<std::uint16_t>(result.ropes.size());
   }
-  result.instances = sort_longest_first(parted->instances, result.ropes);
+  if (result.ropes.empty() && first_fault) return *first_fault;
+  std::vector<std::uint16_t> instances = parted->instances;
+  for (std::uint16_t& label : instances) label = number[label];
+  result.instances = sort_longest_first(std::move(instances), result.ropes);
   return {};
 }
 

@@ -16,7 +16,8 @@ using EstimateOne =
     std::function<Result<Estimate>(const Frame&, const path::Traversals*, double share)>;
 
 /// Tells the ropes apart (`part_ropes`) and estimates each by `one`. One rope without labels is
-/// `one` of the frame itself. Expects a valid frame. Fails as part_ropes and `one` do.
+/// `one` of the frame itself. A rope that `one` fails of, as one without any depth, is left out as
+/// long as another is not. Expects a valid frame. Fails as part_ropes and `one` do.
 [[nodiscard]] Result<Ropes> estimate_each(const Frame& frame, int ropes, const EstimateOne& one);
 
 }  // namespace flowdlo::estimator

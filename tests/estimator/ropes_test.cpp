@@ -176,6 +176,30 @@ TEST(EstimateRopes, LabelsThatAreNotThereAndTooManyAreErrors) {
   EXPECT_THAT(short_.error().message, HasSubstr("Frame.instances: expected"));
 }
 
+TEST(EstimateRopes, ARopeWithoutDepthIsLeftOutAndOnlyRopesWithoutAnyAreAFault) {
+  auto scene = make_ropes(RopesKind::kCrossing, 3, 0);
+  auto estimator = make(0);
+  const auto hide = [&](std::uint16_t rope) {
+    for (std::size_t p = 0; p < scene.image.depth_m.size(); ++p) {
+      if (scene.image.instances[p] == rope) scene.image.depth_m[p] = 0;
+    }
+  };
+  hide(2);
+  const Ropes found = estimate(estimator, scene.frame(true));
+  ASSERT_EQ(found.ropes.size(), 2U);
+  for (std::size_t p = 0; p < found.instances.size(); ++p) {
+    const std::uint16_t rope = scene.image.instances[p];
+    ASSERT_EQ(found.instances[p] != 0, rope == 1 || rope == 3);
+    ASSERT_LE(found.instances[p], 2);
+  }
+  hide(1);
+  hide(3);
+  const auto none = estimator.estimate_ropes(scene.frame(true));
+  ASSERT_FALSE(none);
+  EXPECT_EQ(none.error().code, ErrorCode::kNoEvidence);
+  EXPECT_THAT(none.error().message, HasSubstr("rope 1 of 3"));
+}
+
 TEST(EstimateRopes, AnEstimatorThatWasMovedFromSaysSo) {
   auto estimator = make(0);
   const auto moved = std::move(estimator);
