@@ -11,7 +11,7 @@ get_target_property(FLOWDLO_LIBRARY_TYPE flowdlo TYPE)
 set_target_properties(flowdlo PROPERTIES INSTALL_RPATH "")  # it has no library of ours to find
 install(TARGETS flowdlo EXPORT flowdloTargets)
 install(DIRECTORY "${PROJECT_SOURCE_DIR}/include/flowdlo"
-        DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}" FILES_MATCHING PATTERN "*.hpp")
+        DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}" FILES_MATCHING PATTERN "*.hpp" PATTERN "*.h")
 install(FILES "${PROJECT_BINARY_DIR}/include/flowdlo/version.hpp"
         DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/flowdlo")
 install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" DESTINATION "${FLOWDLO_INSTALL_DATADIR}")

@@ -18,6 +18,7 @@
 #include "frame/frame_name.hpp"
 #include "frame/limits.hpp"
 #include "frame/png.hpp"
+#include "geometry/depth.hpp"
 #include "guard/guarded.hpp"
 
 namespace flowdlo {
@@ -219,7 +220,7 @@ std::vector<float> metres_of(const cv::Mat& depth, double scale_m) {
   depth_m.reserve(depth.total());
   for (int v = 0; v < depth.rows; ++v) {
     const auto* row = depth.ptr<std::uint16_t>(v);
-    for (int u = 0; u < depth.cols; ++u) depth_m.push_back(static_cast<float>(row[u] * scale_m));
+    for (int u = 0; u < depth.cols; ++u) depth_m.push_back(geometry::metres(row[u], scale_m));
   }
   return depth_m;
 }

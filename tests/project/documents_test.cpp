@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 
 #include <filesystem>
+#include <ostream>
 #include <regex>
 
 #include "project/tree.hpp"
@@ -60,13 +61,33 @@ TEST(Readme, BeginsWithTheTwoCommands) {
   EXPECT_THAT(top, testing::Contains(HasSubstr("scripts/test")));
 }
 
-TEST(Readme, QuotesTheExampleThatIsCompiled) {
-  const auto quoted = blocks(read("README.md"), "cpp");
+/// The blocks of a document in one language, and the files that hold them, in order.
+struct Quotation {
+  std::string document;
+  std::string language;
+  std::vector<std::string> sources;
+};
 
-  ASSERT_THAT(quoted, Not(IsEmpty()));
-  EXPECT_THAT(without_indents(read("examples/estimate_one_frame.cpp")),
-              HasSubstr(without_indents(quoted.front())));
+void PrintTo(const Quotation& quotation, std::ostream* out) { *out << quotation.document; }
+
+class Quotations : public testing::TestWithParam<Quotation> {};
+
+TEST_P(Quotations, AreOfCodeThatIsBuiltAndRun) {
+  const auto& [document, language, sources] = GetParam();
+  const auto quoted = blocks(read(document), language);
+
+  ASSERT_EQ(quoted.size(), sources.size());
+  for (std::size_t i = 0; i < quoted.size(); ++i) {
+    EXPECT_THAT(without_indents(read(sources[i])), HasSubstr(without_indents(quoted[i])));
+  }
 }
+
+INSTANTIATE_TEST_SUITE_P(
+    Documents, Quotations,
+    testing::Values(
+        Quotation{"README.md", "cpp", {"examples/estimate_one_frame.cpp"}},
+        Quotation{"docs/c.md", "c", {"examples/estimate_one_frame.c", "tests/c_api/c99_caller.c"}}),
+    [](const auto& of) { return "In" + std::to_string(of.index); });
 
 }  // namespace
 }  // namespace flowdlo::project

@@ -1,6 +1,9 @@
 // The shared library from outside: what it exports, and what it links.
 #include <gmock/gmock.h>
 
+#include <regex>
+#include <set>
+
 #include "project/command.hpp"
 #include "project/tree.hpp"
 
@@ -33,7 +36,21 @@ class SharedLibrary : public testing::Test {
   }
 };
 
+/// The functions that the C header declares.
+std::set<std::string> c_functions() {
+  static const std::regex declared(R"(FLOWDLO_EXPORT[^;(]*\b(flowdlo_\w+)\()");
+  const auto header = read("include/flowdlo/flowdlo.h");
+  std::set<std::string> names;
+  for (std::sregex_iterator it(header.begin(), header.end(), declared), end; it != end; ++it) {
+    names.insert((*it)[1]);
+  }
+  return names;
+}
+
 bool is_ours(std::string name) {
+  if (c_functions().contains(name)) {
+    return true;
+  }
   for (const std::string prefix : {"typeinfo for ", "typeinfo name for ", "vtable for "}) {
     if (name.starts_with(prefix)) {
       name.erase(0, prefix.size());
@@ -46,6 +63,14 @@ TEST_F(SharedLibrary, ExportsTheEstimator) {
   EXPECT_THAT(exports(), Contains(HasSubstr("flowdlo::Estimator::create")));
 }
 
+TEST_F(SharedLibrary, ExportsEveryFunctionOfTheCHeader) {
+  const auto all = exports();
+  EXPECT_THAT(c_functions(), Contains("flowdlo_estimator_estimate"));
+  for (const auto& name : c_functions()) {
+    EXPECT_THAT(all, Contains(name));
+  }
+}
+
 TEST_F(SharedLibrary, ExportsNothingButItsOwnNames) {
   auto foreign = exports();
   std::erase_if(foreign, is_ours);
@@ -55,6 +80,9 @@ TEST_F(SharedLibrary, ExportsNothingButItsOwnNames) {
 TEST_F(SharedLibrary, ExportsNothingOfItsRooms) {
   auto inner = exports();
   std::erase_if(inner, [](const auto& name) {
+    if (name.find("flowdlo::") == std::string::npos) {
+      return true;  // of C
+    }
     const auto first = name.find("flowdlo::") + 9;
     const char initial = first < name.size() ? name[first] : 'A';
     const auto scope = name.find("::", first);

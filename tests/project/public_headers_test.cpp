@@ -24,13 +24,34 @@ TEST(PublicHeaders, IncludeOnlyTheStandardLibraryAndEachOther) {
     for (const auto& include : includes_of(read(header))) {
       const bool standard =
           include.angled && include.target.find_first_of("/.") == std::string::npos;
-      if (!standard && !include.target.starts_with("flowdlo/")) {
+      const bool of_c = header.ends_with(".h") && include.angled &&
+                        (include.target == "stddef.h" || include.target == "stdint.h");
+      if (!standard && !of_c && !include.target.starts_with("flowdlo/")) {
         others.push_back(header + ": " + include.target);
       }
     }
   }
   EXPECT_THAT(public_headers(), Not(IsEmpty()));
   EXPECT_THAT(others, IsEmpty());
+}
+
+TEST(PublicHeaders, OfCppThatTheCHeaderIncludesHoldDirectivesOnly) {
+  std::vector<std::string> code;
+  for (const auto& include : includes_of(read("include/flowdlo/flowdlo.h"))) {
+    if (!include.target.ends_with(".hpp")) {
+      continue;
+    }
+    const auto file = "include/" + include.target;
+    const bool generated = include.target == "flowdlo/version.hpp";
+    const auto content = read(generated ? file + ".in" : file);
+    EXPECT_FALSE(content.empty()) << file;
+    for (const auto& line : lines_of(content)) {
+      if (!line.empty() && !line.starts_with('#') && !line.starts_with("//")) {
+        code.push_back(file + ": " + line);
+      }
+    }
+  }
+  EXPECT_THAT(code, IsEmpty());
 }
 
 TEST(PublicHeaders, NameNoThirdPartyType) {

@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
-# by_pkg_config.sh LIBDIR COMPILER BUILD_DIR FRAME: the consumer with pkg-config alone.
+# by_pkg_config.sh LIBDIR COMPILER C_COMPILER BUILD_DIR FRAME EXAMPLES: the consumer, and the example
+# in C, with pkg-config alone.
 set -euo pipefail
-libdir=$1 compiler=$2 build_dir=$3 frame=$4
+libdir=$1 compiler=$2 c_compiler=$3 build_dir=$4 frame=$5 examples=$6
 here=$(cd "$(dirname "$0")" && pwd)
 
 export PKG_CONFIG_PATH="$libdir/pkgconfig"
@@ -15,6 +16,9 @@ mkdir -p "$build_dir"
   -o "$build_dir/consumer"
 if [[ -e $libdir/libflowdlo.so ]]; then
   "$build_dir/consumer" "$frame"
+  "$c_compiler" -std=c99 -Wall -pedantic -Werror "$examples/estimate_one_frame.c" "${flags[@]}" \
+    -Wl,-rpath,"$libdir" -o "$build_dir/in_c"
+  "$build_dir/in_c" "$frame" | awk 'NF == 3 { ++nodes } END { exit nodes != 64 }'
 else
   "$build_dir/consumer" "$frame" "$(pkg-config --variable=datadir flowdlo)/flowdlo.fdw"
 fi

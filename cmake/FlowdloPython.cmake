@@ -1,0 +1,68 @@
+# FLOWDLO_BUILD_PYTHON: the Python package. AUTO builds it where the library is shared and there are
+# pybind11 and a Python with NumPy and its headers: the first such in PATH, or else the system's, unless
+# Python_EXECUTABLE names one. Leaves the target flowdlo_python behind.
+set(flowdlo_python_default OFF)
+if(PROJECT_IS_TOP_LEVEL)  # an embedding project decides for itself
+  set(flowdlo_python_default AUTO)
+endif()
+set(FLOWDLO_BUILD_PYTHON ${flowdlo_python_default} CACHE STRING
+    "Build the Python package: AUTO (where pybind11 and NumPy are), ON or OFF")
+set_property(CACHE FLOWDLO_BUILD_PYTHON PROPERTY STRINGS AUTO ON OFF)
+
+# What `python` prints for `code`; empty where that fails.
+function(flowdlo_ask_python python code out_answer)
+  execute_process(COMMAND "${python}" -c "${code}" OUTPUT_VARIABLE answer RESULT_VARIABLE failed
+                  OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET)
+  if(failed)
+    set(answer "")
+  endif()
+  set(${out_answer} "${answer}" PARENT_SCOPE)
+endfunction()
+
+if(FLOWDLO_BUILD_PYTHON)
+  set(lacks)
+  if(FLOWDLO_SANITIZE)
+    set(lacks "an interpreter that is not sanitized cannot load a library that is")
+  elseif(NOT BUILD_SHARED_LIBS)
+    set(lacks "it needs the shared library; set BUILD_SHARED_LIBS")  # beside it weights are found
+  else()
+    if(NOT Python_EXECUTABLE)
+      # The first in PATH may be one that somebody keeps for other things: the system's is next.
+      find_program(FLOWDLO_PYTHON_IN_PATH python3)
+      find_program(FLOWDLO_PYTHON_OF_SYSTEM python3 PATHS /usr/bin NO_DEFAULT_PATH)
+      mark_as_advanced(FLOWDLO_PYTHON_IN_PATH FLOWDLO_PYTHON_OF_SYSTEM)
+      foreach(python "${FLOWDLO_PYTHON_IN_PATH}" "${FLOWDLO_PYTHON_OF_SYSTEM}")
+        if(python)
+          flowdlo_ask_python("${python}" "import sys, numpy; print(sys.executable)" found)
+          if(found)
+            set(Python_EXECUTABLE "${found}")
+            break()
+          endif()
+        endif()
+      endforeach()
+    endif()
+    if(NOT Python_EXECUTABLE)
+      set(lacks "no Python with NumPy was found; install python3-numpy")
+    else()
+      find_package(Python 3.9 QUIET COMPONENTS Interpreter Development.Module)
+      if(NOT Python_FOUND)
+        set(lacks "the headers of ${Python_EXECUTABLE} were not found; install python3-dev")
+      endif()
+    endif()
+    if(NOT lacks)
+      flowdlo_ask_python("${Python_EXECUTABLE}" "import pybind11; print(pybind11.get_cmake_dir())"
+                         FLOWDLO_PYBIND11_OF_PYTHON)
+      find_package(pybind11 2.9 CONFIG QUIET HINTS "${FLOWDLO_PYBIND11_OF_PYTHON}")
+      if(NOT pybind11_FOUND)
+        set(lacks "pybind11 was not found; install pybind11-dev")
+      endif()
+    endif()
+  endif()
+  if(NOT lacks)
+    add_subdirectory("${PROJECT_SOURCE_DIR}/python")
+  elseif(FLOWDLO_BUILD_PYTHON STREQUAL "AUTO")
+    message(STATUS "The Python package is left out: ${lacks}")
+  else()
+    message(FATAL_ERROR "FLOWDLO_BUILD_PYTHON: ${lacks}, or set it to AUTO or OFF")
+  endif()
+endif()

@@ -1,0 +1,322 @@
+// The C interface: each function checks what it was given and calls the C++ one.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstring>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "c_api/images.hpp"
+#include "c_api/last_error.hpp"
+#include "c_api/sized.hpp"
+#include "flowdlo/estimator.hpp"
+#include "flowdlo/flowdlo.h"
+#include "flowdlo/frame_folder.hpp"
+#include "guard/guarded.hpp"
+
+struct flowdlo_frame_folder {
+  flowdlo::FrameFolder content;
+};
+
+struct flowdlo_estimator {
+  flowdlo::Estimator estimator;
+  flowdlo::c_api::Copies copies;
+  std::vector<flowdlo::Alternative> alternatives;  ///< of the last estimate
+};
+
+namespace flowdlo::c_api {
+namespace {
+
+static_assert(FLOWDLO_NODES == kNodes);
+static_assert(FLOWDLO_QUALITY_FAST == static_cast<int>(Quality::kFast));
+static_assert(FLOWDLO_PRIOR_THESIS == static_cast<int>(PriorChoice::kThesis));
+static_assert(FLOWDLO_PRIOR_REFINED == static_cast<int>(PriorChoice::kRefined));
+static_assert(FLOWDLO_GATE_THESIS == static_cast<int>(GateChoice::kThesis));
+static_assert(FLOWDLO_GATE_CALIBRATED == static_cast<int>(GateChoice::kCalibrated));
+static_assert(FLOWDLO_FIELD_OFF == static_cast<int>(FieldChoice::kOff));
+static_assert(FLOWDLO_SOURCE_PREDICTION == static_cast<int>(Source::kPrediction));
+static_assert(FLOWDLO_SOURCE_PRIOR == static_cast<int>(Source::kPrior));
+static_assert(FLOWDLO_DOUBT_NO_ROPE == 1U << static_cast<int>(Doubt::kNoRope));
+static_assert(FLOWDLO_DOUBT_STRANDS_LEFT == 1U << static_cast<int>(Doubt::kStrandsLeft));
+static_assert(FLOWDLO_DOUBT_BARE_GAP == 1U << static_cast<int>(Doubt::kBareGap));
+static_assert(FLOWDLO_DOUBT_GOES_ON == 1U << static_cast<int>(Doubt::kGoesOn));
+
+Result<void> check_there(const void* argument, const char* name) {
+  if (argument != nullptr) return {};
+  return Error{ErrorCode::kBadInput,
+               fmt::format("{}: expected an address, got NULL; pass one", name)};
+}
+
+/// Fills a struct that the caller says is of `bytes` with `value`.
+template <class Struct>
+flowdlo_status initialise(Struct* given, std::size_t bytes, const Struct& value) {
+  return told(guard::guarded(Kind<Struct>::kName, [&]() -> Result<void> {
+    if (const auto fits = check_size(given, bytes); !fits) return fits;
+    write(given, bytes, value);
+    return {};
+  }));
+}
+
+flowdlo_config default_config() {
+  const Config defaults;
+  return {.struct_size = sizeof(flowdlo_config),
+          .weights = nullptr,
+          .device = nullptr,
+          .field_weights = nullptr,
+          .seed = defaults.seed,
+          .rope_length_m = defaults.rope_length_m,
+          .quality = static_cast<std::int32_t>(defaults.quality),
+          .euler_steps = defaults.euler_steps,
+          .draws = defaults.draws,
+          .prior = static_cast<std::int32_t>(defaults.prior),
+          .gate = static_cast<std::int32_t>(defaults.gate),
+          .field = static_cast<std::int32_t>(defaults.field),
+          .threads = defaults.threads,
+          .max_width = defaults.max_width,
+          .max_height = defaults.max_height,
+          .device_timeout_ms = defaults.device_timeout_ms,
+          .validation = defaults.validation ? 1 : 0,
+          .reserved = 0};
+}
+
+flowdlo_frame default_frame() {
+  flowdlo_frame frame{};
+  frame.struct_size = sizeof(frame);
+  frame.depth_scale_m = 0.001;
+  return frame;
+}
+
+Config config_of(const flowdlo_config& given) {
+  Config config;
+  if (given.weights != nullptr) config.weights = given.weights;
+  if (given.device != nullptr) config.device = given.device;
+  if (given.field_weights != nullptr) config.field_weights = given.field_weights;
+  config.seed = given.seed;
+  config.rope_length_m = given.rope_length_m;
+  config.quality = static_cast<Quality>(given.quality);
+  config.euler_steps = given.euler_steps;
+  config.draws = given.draws;
+  config.prior = static_cast<PriorChoice>(given.prior);
+  config.gate = static_cast<GateChoice>(given.gate);
+  config.field = static_cast<FieldChoice>(given.field);
+  config.threads = given.threads;
+  config.max_width = given.max_width;
+  config.max_height = given.max_height;
+  config.device_timeout_ms = given.device_timeout_ms;
+  config.validation = given.validation != 0;
+  return config;
+}
+
+void copy_nodes(const Centerline& nodes, float (&to)[FLOWDLO_NODES][3]) {
+  for (std::size_t node = 0; node < nodes.size(); ++node) {
+    to[node][0] = nodes[node].x;
+    to[node][1] = nodes[node].y;
+    to[node][2] = nodes[node].z;
+  }
+}
+
+flowdlo_estimate plain(const Estimate& estimate) {
+  flowdlo_estimate out{};
+  copy_nodes(estimate.nodes, out.nodes);
+  std::copy(estimate.sigma_m.begin(), estimate.sigma_m.end(), out.sigma_m);
+  std::copy(estimate.support.begin(), estimate.support.end(), out.support);
+  out.confidence = estimate.confidence;
+  out.mask_agreement = estimate.mask_agreement;
+  out.prior_mask_agreement = estimate.prior_mask_agreement;
+  out.source = static_cast<std::int32_t>(estimate.source);
+  out.draw = estimate.draw;
+  out.calibrated = estimate.calibrated ? 1 : 0;
+  out.readings = estimate.readings;
+  const OneRope& one = estimate.one_rope;
+  for (const Doubt doubt : one.doubts) out.doubts |= 1U << static_cast<unsigned>(doubt);
+  out.alternatives = static_cast<std::int32_t>(estimate.alternatives.size());
+  out.accepted_draws = static_cast<std::int32_t>(
+      std::count_if(estimate.draws.begin(), estimate.draws.end(),
+                    [](const DrawReport& draw) { return draw.accepted; }));
+  out.explained = one.explained;
+  out.slender = one.slender;
+  out.sides = one.sides;
+  out.even = one.even;
+  out.left_over = one.left_over;
+  out.off_mask = one.off_mask;
+  out.bare_gap = one.bare_gap;
+  out.goes_on = one.goes_on;
+  const Timings& timings = estimate.timings;
+  out.evidence_ms = timings.evidence_ms;
+  out.path_ms = timings.path_ms;
+  out.prior_ms = timings.prior_ms;
+  out.readings_ms = timings.readings_ms;
+  out.mask_field_ms = timings.mask_field_ms;
+  out.model_ms = timings.model_ms;
+  out.gate_ms = timings.gate_ms;
+  out.total_ms = timings.total_ms;
+  return out;
+}
+
+Result<void> create(const flowdlo_config* given, flowdlo_estimator** out) {
+  if (const auto there = check_there(out, "flowdlo_estimator_create: estimator"); !there) {
+    return there;
+  }
+  flowdlo_config config = default_config();
+  if (given != nullptr) {
+    if (const auto fits = check_size(given); !fits) return fits;
+    config = read(given, config);
+    if (config.reserved != 0) {
+      return Error{ErrorCode::kBadInput,
+                   fmt::format("flowdlo_config.reserved: expected 0, got {}; fill the struct with "
+                               "flowdlo_config_init before use",
+                               config.reserved)};
+    }
+  }
+  auto estimator = Estimator::create(config_of(config));
+  if (!estimator) return estimator.error();
+  *out = std::make_unique<flowdlo_estimator>(flowdlo_estimator{*std::move(estimator), {}, {}})
+             .release();
+  return {};
+}
+
+Result<void> estimate(flowdlo_estimator* estimator, const flowdlo_frame* given,
+                      flowdlo_estimate* out) {
+  if (const auto there = check_there(estimator, "flowdlo_estimator_estimate: estimator"); !there) {
+    return there;
+  }
+  estimator->alternatives.clear();
+  if (const auto fits = check_size(given); !fits) return fits;
+  if (const auto fits = check_size(out); !fits) return fits;
+  const auto frame = frame_of(read(given, default_frame()), estimator->copies);
+  if (!frame) return frame.error();
+  auto result = estimator->estimator.estimate(*frame);
+  if (!result) return result.error();
+  write(out, out->struct_size, plain(*result));
+  estimator->alternatives = std::move(result->alternatives);
+  return {};
+}
+
+Result<void> alternative(const flowdlo_estimator* estimator, std::int32_t index,
+                         flowdlo_alternative* out) {
+  if (const auto there = check_there(estimator, "flowdlo_estimator_alternative: estimator");
+      !there) {
+    return there;
+  }
+  if (const auto fits = check_size(out); !fits) return fits;
+  const auto& all = estimator->alternatives;
+  if (index < 0 || static_cast<std::size_t>(index) >= all.size()) {
+    return Error{ErrorCode::kBadInput,
+                 fmt::format("flowdlo_estimator_alternative: index: expected 0 or more and below "
+                             "the {} of the last estimate, got {}",
+                             all.size(), index)};
+  }
+  const Alternative& one = all[static_cast<std::size_t>(index)];
+  flowdlo_alternative value{};
+  copy_nodes(one.nodes, value.nodes);
+  value.score = one.score;
+  value.mask_agreement = one.mask_agreement;
+  write(out, out->struct_size, value);
+  return {};
+}
+
+Result<void> load(const char* path, flowdlo_frame_folder** out) {
+  if (const auto there = check_there(path, "flowdlo_frame_folder_load: path"); !there) return there;
+  if (const auto there = check_there(out, "flowdlo_frame_folder_load: folder"); !there) {
+    return there;
+  }
+  auto folder = load_frame_folder(path);
+  if (!folder) return folder.error();
+  *out = std::make_unique<flowdlo_frame_folder>(flowdlo_frame_folder{*std::move(folder)}).release();
+  return {};
+}
+
+flowdlo_image packed(const void* data, std::int32_t pixel) { return {data, 0, 0, pixel, 0}; }
+
+Result<void> point_at(const flowdlo_frame_folder* folder, flowdlo_frame* out) {
+  if (const auto there = check_there(folder, "flowdlo_frame_folder_frame: folder"); !there) {
+    return there;
+  }
+  if (const auto fits = check_size(out); !fits) return fits;
+  const FrameFolder& content = folder->content;
+  flowdlo_frame frame = default_frame();
+  frame.depth = packed(content.depth_m.data(), FLOWDLO_PIXEL_F32);
+  frame.mask = packed(content.mask.data(), FLOWDLO_PIXEL_U8);
+  if (!content.color_bgr.empty()) {
+    frame.color = packed(content.color_bgr.data(), FLOWDLO_PIXEL_BGR8);
+  }
+  frame.width = content.width;
+  frame.height = content.height;
+  frame.fx = content.intrinsics.fx;
+  frame.fy = content.intrinsics.fy;
+  frame.cx = content.intrinsics.cx;
+  frame.cy = content.intrinsics.cy;
+  write(out, out->struct_size, frame);
+  return {};
+}
+
+}  // namespace
+}  // namespace flowdlo::c_api
+
+namespace guard = flowdlo::guard;
+namespace c_api = flowdlo::c_api;
+
+const char* flowdlo_status_name(flowdlo_status status) {
+  if (status == FLOWDLO_OK) return "ok";
+  if (status < FLOWDLO_OK || status > FLOWDLO_OUT_OF_MEMORY) return "unknown";
+  return flowdlo::name_of(static_cast<flowdlo::ErrorCode>(status - 1));
+}
+
+const char* flowdlo_last_error() { return c_api::last_error(); }
+
+const char* flowdlo_version() { return FLOWDLO_VERSION; }
+
+flowdlo_status flowdlo_config_init(flowdlo_config* config, size_t struct_size) {
+  return c_api::initialise(config, struct_size, c_api::default_config());
+}
+
+flowdlo_status flowdlo_frame_init(flowdlo_frame* frame, size_t struct_size) {
+  return c_api::initialise(frame, struct_size, c_api::default_frame());
+}
+
+flowdlo_status flowdlo_estimate_init(flowdlo_estimate* estimate, size_t struct_size) {
+  return c_api::initialise(estimate, struct_size, flowdlo_estimate{});
+}
+
+flowdlo_status flowdlo_alternative_init(flowdlo_alternative* alternative, size_t struct_size) {
+  return c_api::initialise(alternative, struct_size, flowdlo_alternative{});
+}
+
+flowdlo_status flowdlo_frame_folder_load(const char* path, flowdlo_frame_folder** folder) {
+  return c_api::told(
+      guard::guarded("flowdlo_frame_folder_load", [&] { return c_api::load(path, folder); }));
+}
+
+flowdlo_status flowdlo_frame_folder_frame(const flowdlo_frame_folder* folder,
+                                          flowdlo_frame* frame) {
+  return c_api::told(
+      guard::guarded("flowdlo_frame_folder_frame", [&] { return c_api::point_at(folder, frame); }));
+}
+
+void flowdlo_frame_folder_destroy(flowdlo_frame_folder* folder) { delete folder; }
+
+flowdlo_status flowdlo_estimator_create(const flowdlo_config* config,
+                                        flowdlo_estimator** estimator) {
+  return c_api::told(
+      guard::guarded("flowdlo_estimator_create", [&] { return c_api::create(config, estimator); }));
+}
+
+void flowdlo_estimator_destroy(flowdlo_estimator* estimator) { delete estimator; }
+
+flowdlo_status flowdlo_estimator_estimate(flowdlo_estimator* estimator, const flowdlo_frame* frame,
+                                          flowdlo_estimate* estimate) {
+  return c_api::told(guard::guarded("flowdlo_estimator_estimate",
+                                    [&] { return c_api::estimate(estimator, frame, estimate); }));
+}
+
+flowdlo_status flowdlo_estimator_alternative(const flowdlo_estimator* estimator, int32_t index,
+                                             flowdlo_alternative* alternative) {
+  return c_api::told(guard::guarded("flowdlo_estimator_alternative", [&] {
+    return c_api::alternative(estimator, index, alternative);
+  }));
+}
+
+const char* flowdlo_estimator_device(const flowdlo_estimator* estimator) {
+  return estimator == nullptr ? "" : estimator->estimator.device().c_str();
+}

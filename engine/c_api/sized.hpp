@@ -1,0 +1,99 @@
+// Sized: structs that begin with struct_size and get more fields at their end in later versions.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <cstddef>
+#include <cstring>
+
+#include "flowdlo/flowdlo.h"
+#include "flowdlo/result.hpp"
+#include "flowdlo/version.hpp"
+
+namespace flowdlo::c_api {
+
+/// What a struct is called and how large it was in the first version that had it. A later version
+/// adds fields and leaves `kFirstBytes` alone. No byte of padding ends a struct, for a field that
+/// took its place would not change the size.
+template <class Struct>
+struct Kind;
+
+template <>
+struct Kind<flowdlo_config> {
+  static constexpr const char* kName = "flowdlo_config";
+  static constexpr std::size_t kFirstBytes =
+      offsetof(flowdlo_config, reserved) + sizeof(flowdlo_config::reserved);
+  static_assert(sizeof(flowdlo_config) == kFirstBytes);
+};
+
+template <>
+struct Kind<flowdlo_frame> {
+  static constexpr const char* kName = "flowdlo_frame";
+  static constexpr std::size_t kFirstBytes =
+      offsetof(flowdlo_frame, roi_height) + sizeof(flowdlo_frame::roi_height);
+  static_assert(sizeof(flowdlo_frame) == kFirstBytes);
+};
+
+template <>
+struct Kind<flowdlo_estimate> {
+  static constexpr const char* kName = "flowdlo_estimate";
+  static constexpr std::size_t kFirstBytes =
+      offsetof(flowdlo_estimate, total_ms) + sizeof(flowdlo_estimate::total_ms);
+  static_assert(sizeof(flowdlo_estimate) == kFirstBytes);
+};
+
+template <>
+struct Kind<flowdlo_alternative> {
+  static constexpr const char* kName = "flowdlo_alternative";
+  static constexpr std::size_t kFirstBytes =
+      offsetof(flowdlo_alternative, mask_agreement) + sizeof(flowdlo_alternative::mask_agreement);
+  static_assert(sizeof(flowdlo_alternative) == kFirstBytes);
+};
+
+/// The struct is there and of a size that a version up to this one has.
+template <class Struct>
+[[nodiscard]] Result<void> check_size(const Struct* given, std::size_t bytes) {
+  using Known = Kind<Struct>;
+  if (given == nullptr) {
+    return Error{ErrorCode::kBadInput,
+                 fmt::format("{0}: expected a {0}, got NULL; pass its address", Known::kName)};
+  }
+  if (bytes < Known::kFirstBytes) {
+    return Error{
+        ErrorCode::kBadInput,
+        fmt::format("{0}.struct_size: expected {1} to {2} bytes, got {3}; fill the struct with "
+                    "{0}_init before use",
+                    Known::kName, Known::kFirstBytes, sizeof(Struct), bytes)};
+  }
+  if (bytes > sizeof(Struct)) {
+    return Error{
+        ErrorCode::kBadInput,
+        fmt::format("{0}.struct_size: expected {1} to {2} bytes, got {3}; fill the struct with "
+                    "{0}_init before use, and run with a library no older than the header (this is "
+                    "{4})",
+                    Known::kName, Known::kFirstBytes, sizeof(Struct), bytes, FLOWDLO_VERSION)};
+  }
+  return {};
+}
+
+/// The same of a struct that says its size itself.
+template <class Struct>
+[[nodiscard]] Result<void> check_size(const Struct* given) {
+  return check_size(given, given == nullptr ? 0 : given->struct_size);
+}
+
+/// Writes `value` to a struct of `bytes`, as check_size() has passed them.
+template <class Struct>
+void write(Struct* given, std::size_t bytes, Struct value) {
+  value.struct_size = bytes;
+  std::memcpy(given, &value, bytes);
+}
+
+/// What a struct that check_size() has passed says; fields that it is too old for are `defaults`'.
+template <class Struct>
+[[nodiscard]] Struct read(const Struct* given, Struct defaults) {
+  std::memcpy(&defaults, given, given->struct_size);
+  return defaults;
+}
+
+}  // namespace flowdlo::c_api

@@ -1,0 +1,236 @@
+/* FlowDLO for C: the complete ordered 3D centerline of a rope from one RGB-D frame. C99 or later.
+ *
+ * Every call that can fail returns a flowdlo_status: FLOWDLO_OK, or why there is no value; then
+ * flowdlo_last_error() says who failed, what was expected, what came and what to do. No call throws
+ * or ends the process: a null pointer where one is needed, a struct that was not filled by its
+ * _init function, and images of the wrong size or kind are FLOWDLO_BAD_INPUT. What a call would
+ * have written is untouched when it fails.
+ *
+ * A struct that begins with struct_size may get more fields at its end in later versions: its _init
+ * function writes the size and every default. A program built with an older header keeps working
+ * with a newer library. A struct that is larger than the library knows is FLOWDLO_BAD_INPUT.
+ *
+ * Threads: one estimator is used by one thread at a time; different estimators, and all calls
+ * without one, may run at the same time. Ownership: what a _create or _load function returns is
+ * freed by its _destroy function, which takes NULL as well. Strings are UTF-8 and end in 0. */
+#pragma once
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include "flowdlo/export.hpp"  /* macros only, as the next: C reads them as well */
+#include "flowdlo/version.hpp" /* FLOWDLO_VERSION: that of this header */
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+enum { FLOWDLO_NODES = 64 };
+
+/* Why a call has no value. Stable: programs may switch on it. */
+typedef int32_t flowdlo_status;
+enum {
+  FLOWDLO_OK = 0,
+  FLOWDLO_BAD_INPUT = 1,    /* an argument, frame, file or configuration violates its contract */
+  FLOWDLO_NO_EVIDENCE = 2,  /* no mask pixel carries a usable depth */
+  FLOWDLO_NO_PATH = 3,      /* the mask holds no stroke that a rope could have drawn */
+  FLOWDLO_BAD_WEIGHTS = 4,  /* the weights file is missing, damaged, or of another model */
+  FLOWDLO_NO_DEVICE = 5,    /* no device fits what was asked for */
+  FLOWDLO_DEVICE_LOST = 6,  /* the device failed, hung past its timeout, or ran out of memory */
+  FLOWDLO_IO = 7,           /* a file could not be read or written */
+  FLOWDLO_INTERNAL = 8,     /* a defect of this library; please report it */
+  FLOWDLO_OUT_OF_MEMORY = 9 /* the call found no memory; nothing is broken, it may be tried again */
+};
+
+/* "ok", "bad_input", ...; "unknown" for what is no status. The text lives as long as the process.
+ */
+FLOWDLO_EXPORT const char* flowdlo_status_name(flowdlo_status status);
+
+/* What the last failing call of this thread had to say, every fault on a line of its own; empty
+ * before the first. Valid until the thread's next failing call, or its end. Cut after 4095 bytes.
+ */
+FLOWDLO_EXPORT const char* flowdlo_last_error(void);
+
+/* Version of the library that runs, "0.1.0"; FLOWDLO_VERSION is that of the header. */
+FLOWDLO_EXPORT const char* flowdlo_version(void);
+
+/* ---- Configuration ---- */
+
+enum { FLOWDLO_QUALITY_FULL = 0, FLOWDLO_QUALITY_FAST = 1 };
+enum { FLOWDLO_PRIOR_OF_WEIGHTS = 0, FLOWDLO_PRIOR_THESIS = 1, FLOWDLO_PRIOR_REFINED = 2 };
+enum { FLOWDLO_GATE_OF_WEIGHTS = 0, FLOWDLO_GATE_THESIS = 1, FLOWDLO_GATE_CALIBRATED = 2 };
+enum { FLOWDLO_FIELD_BESIDE = 0, FLOWDLO_FIELD_OFF = 1 };
+
+/* flowdlo::Config of <flowdlo/config.hpp>, which says more of each field; the defaults are its. */
+typedef struct flowdlo_config {
+  size_t struct_size;        /* bytes; flowdlo_config_init */
+  const char* weights;       /* a .fdw file; NULL or "": the one installed beside the library */
+  const char* device;        /* NULL or "auto", "cpu", "vulkan", part of a name, or a UUID */
+  const char* field_weights; /* .safetensors; NULL or "": beside the weights, if there */
+  uint64_t seed;             /* same seed, frame and device: the same bits */
+  double rope_length_m;      /* of the whole rope, metres; 0: unknown */
+  int32_t quality;           /* FLOWDLO_QUALITY_ */
+  int32_t euler_steps;       /* 1..64 */
+  int32_t draws;             /* 1..64 */
+  int32_t prior;             /* FLOWDLO_PRIOR_ */
+  int32_t gate;              /* FLOWDLO_GATE_ */
+  int32_t field;             /* FLOWDLO_FIELD_ */
+  int32_t threads;           /* of the CPU back end; 0: one for each core */
+  int32_t max_width;         /* largest frame for which memory is set aside, pixels */
+  int32_t max_height;        /* the same */
+  int32_t device_timeout_ms; /* 0: chosen by the amount of work */
+  int32_t validation;        /* Vulkan's validation layers: 0 or 1; slow */
+  int32_t reserved;          /* 0 */
+} flowdlo_config;
+
+/* Fills `config` with the defaults. `struct_size` is sizeof(flowdlo_config). */
+FLOWDLO_EXPORT flowdlo_status flowdlo_config_init(flowdlo_config* config, size_t struct_size);
+
+/* ---- Frames ---- */
+
+enum {
+  FLOWDLO_PIXEL_F32 = 1,  /* depth: float, metres; 0 or not finite: none */
+  FLOWDLO_PIXEL_U16 = 2,  /* depth: uint16_t, flowdlo_frame.depth_scale_m metres a unit; 0: none */
+  FLOWDLO_PIXEL_U8 = 3,   /* mask: uint8_t, the rope where over 127 */
+  FLOWDLO_PIXEL_BGR8 = 4, /* colour: three bytes */
+  FLOWDLO_PIXEL_RGB8 = 5  /* colour: three bytes */
+};
+
+/* An image of the caller's, [height, width], read during a call and never kept. Float depth, masks
+ * and BGR without padding are read where they lie; anything else is copied first. */
+typedef struct flowdlo_image {
+  const void* data;      /* first pixel; NULL: no image */
+  ptrdiff_t row_bytes;   /* from a row to the next; 0: rows follow each other; < 0: upwards */
+  ptrdiff_t pixel_bytes; /* from a pixel to the next in its row; 0: pixels follow each other */
+  int32_t pixel;         /* FLOWDLO_PIXEL_ */
+  int32_t reserved;      /* 0 */
+} flowdlo_image;
+
+/* One observation. Images are rectified, of one size, and aligned to the pinhole camera fx, fy, cx,
+ * cy (pixels; the centre of the top left pixel is (0, 0)). */
+typedef struct flowdlo_frame {
+  size_t struct_size;   /* bytes; flowdlo_frame_init */
+  flowdlo_image depth;  /* FLOWDLO_PIXEL_F32 or FLOWDLO_PIXEL_U16: along z, not along the ray */
+  flowdlo_image mask;   /* FLOWDLO_PIXEL_U8 */
+  flowdlo_image color;  /* FLOWDLO_PIXEL_BGR8 or FLOWDLO_PIXEL_RGB8; data NULL: not needed */
+  double depth_scale_m; /* metres a unit of FLOWDLO_PIXEL_U16, over 0 and at most 1 */
+  int32_t width;        /* of the images, pixels */
+  int32_t height;       /* of the images, pixels */
+  float fx;
+  float fy;
+  float cx;
+  float cy;
+  int32_t roi_u;      /* region of interest: column of its top left pixel */
+  int32_t roi_v;      /* and row; nothing outside is looked at */
+  int32_t roi_width;  /* 0, as roi_height: the whole images. A region is 1..4096 px a side. */
+  int32_t roi_height; /* Intrinsics stay those of the whole images, nodes stay where they are. */
+} flowdlo_frame;
+
+/* Fills `frame` with zeros, and depth_scale_m with 0.001. `struct_size` is sizeof(flowdlo_frame).
+ */
+FLOWDLO_EXPORT flowdlo_status flowdlo_frame_init(flowdlo_frame* frame, size_t struct_size);
+
+/* A frame read from disk: depth.png, mask.png, camera.json and, where present, color.png. */
+typedef struct flowdlo_frame_folder flowdlo_frame_folder;
+
+/* Fails with FLOWDLO_IO, FLOWDLO_BAD_INPUT or FLOWDLO_OUT_OF_MEMORY, naming the file. */
+FLOWDLO_EXPORT flowdlo_status flowdlo_frame_folder_load(const char* path,
+                                                        flowdlo_frame_folder** folder);
+
+/* Points `frame`, which flowdlo_frame_init has filled, at the pixels of `folder`, which lives as
+ * long as the frame is used. */
+FLOWDLO_EXPORT flowdlo_status flowdlo_frame_folder_frame(const flowdlo_frame_folder* folder,
+                                                         flowdlo_frame* frame);
+
+FLOWDLO_EXPORT void flowdlo_frame_folder_destroy(flowdlo_frame_folder* folder);
+
+/* ---- Estimates ---- */
+
+enum { FLOWDLO_SOURCE_PREDICTION = 0, FLOWDLO_SOURCE_PRIOR = 1 };
+
+/* Why an estimate is not to be trusted: bits of flowdlo_estimate.doubts. */
+enum {
+  FLOWDLO_DOUBT_NO_ROPE = 1,      /* what the mask shows has not the shape of a rope */
+  FLOWDLO_DOUBT_STRANDS_LEFT = 2, /* the nodes leave strands of the mask out */
+  FLOWDLO_DOUBT_BARE_GAP = 4,     /* the nodes cross plain background between pieces of the mask */
+  FLOWDLO_DOUBT_GOES_ON = 8       /* depth shows the rope going on where the mask ends */
+};
+
+/* flowdlo::Estimate of <flowdlo/estimate.hpp>, which says more of each field, without the reports
+ * of single draws and of the parts of a device's time. */
+typedef struct flowdlo_estimate {
+  size_t struct_size;             /* bytes; flowdlo_estimate_init */
+  float nodes[FLOWDLO_NODES][3];  /* x right, y down, z forward, metres, camera frame, end to end */
+  float sigma_m[FLOWDLO_NODES];   /* metres: 68 % of nodes are nearer to the truth than this */
+  uint8_t support[FLOWDLO_NODES]; /* 1 where a measured point backs the node, otherwise 0 */
+  float confidence;               /* [0, 1] that the nodes are right */
+  float mask_agreement;           /* [0, 1] how well the nodes explain the mask */
+  float prior_mask_agreement;     /* [0, 1] the same of the prior */
+  int32_t source;                 /* FLOWDLO_SOURCE_: where the nodes come from */
+  int32_t draw;                   /* index of the returned draw; -1: the prior */
+  int32_t calibrated;             /* 1: the calibrated gate decided, 0: that of the thesis */
+  int32_t readings;               /* of the mask; more than one where the first leaves doubt */
+  uint32_t doubts;                /* FLOWDLO_DOUBT_ bits; 0: none */
+  int32_t alternatives;           /* how many flowdlo_estimator_alternative has */
+  int32_t accepted_draws;         /* draws that the gate found plausible */
+  float explained;                /* [0, 1] share of the mask's area near the nodes */
+  float slender;                  /* length of the nodes in the image, widths of the rope */
+  float sides;                    /* [0, 1] share of the nodes beside which the mask ends */
+  float even;                     /* [0, 1] share of these where the mask is as wide as the rope */
+  float left_over;                /* length of the strands that the nodes leave out, widths */
+  float off_mask;                 /* [0, 1] share of the nodes off the mask, nothing hiding them */
+  float bare_gap;                 /* longest stretch of nodes on plain background, widths */
+  float goes_on;                  /* how far the rope goes on beyond the mask, widths */
+  double evidence_ms;             /* milliseconds of each stage */
+  double path_ms;
+  double prior_ms;
+  double readings_ms;
+  double mask_field_ms;
+  double model_ms;
+  double gate_ms;
+  double total_ms;
+} flowdlo_estimate;
+
+/* Fills `estimate` with zeros. `struct_size` is sizeof(flowdlo_estimate). */
+FLOWDLO_EXPORT flowdlo_status flowdlo_estimate_init(flowdlo_estimate* estimate, size_t struct_size);
+
+/* A traversal of the rope that lost to the returned one. */
+typedef struct flowdlo_alternative {
+  size_t struct_size;            /* bytes; flowdlo_alternative_init */
+  float nodes[FLOWDLO_NODES][3]; /* as flowdlo_estimate.nodes */
+  float score;                   /* how well it explains the frame; comparable within one frame */
+  float mask_agreement;          /* [0, 1] */
+} flowdlo_alternative;
+
+/* Fills `alternative` with zeros. `struct_size` is sizeof(flowdlo_alternative). */
+FLOWDLO_EXPORT flowdlo_status flowdlo_alternative_init(flowdlo_alternative* alternative,
+                                                       size_t struct_size);
+
+/* Owns the device and the weights; made once, called for every frame. */
+typedef struct flowdlo_estimator flowdlo_estimator;
+
+/* `config` NULL: the defaults. Its strings are copied. Fails with FLOWDLO_BAD_INPUT,
+ * FLOWDLO_BAD_WEIGHTS, FLOWDLO_IO, FLOWDLO_NO_DEVICE or FLOWDLO_OUT_OF_MEMORY. */
+FLOWDLO_EXPORT flowdlo_status flowdlo_estimator_create(const flowdlo_config* config,
+                                                       flowdlo_estimator** estimator);
+
+FLOWDLO_EXPORT void flowdlo_estimator_destroy(flowdlo_estimator* estimator);
+
+/* Fails with FLOWDLO_BAD_INPUT, FLOWDLO_NO_EVIDENCE, FLOWDLO_NO_PATH, FLOWDLO_DEVICE_LOST or
+ * FLOWDLO_OUT_OF_MEMORY. A rejected prediction is not a failure: `source` is then the prior. */
+FLOWDLO_EXPORT flowdlo_status flowdlo_estimator_estimate(flowdlo_estimator* estimator,
+                                                         const flowdlo_frame* frame,
+                                                         flowdlo_estimate* estimate);
+
+/* Alternative `index`, best first, of the estimator's last estimate; none after a failing one. */
+FLOWDLO_EXPORT flowdlo_status flowdlo_estimator_alternative(const flowdlo_estimator* estimator,
+                                                            int32_t index,
+                                                            flowdlo_alternative* alternative);
+
+/* "cpu", or the name of the Vulkan device in use; "" for NULL. Valid until the estimator's next
+ * estimate, or its end. */
+FLOWDLO_EXPORT const char* flowdlo_estimator_device(const flowdlo_estimator* estimator);
+
+#ifdef __cplusplus
+}
+#endif

@@ -1,0 +1,163 @@
+// flowdlo._core: the C++ interface as Python sees it. The package around it turns whatever arrays
+// its callers have into the packed ones that are asked for here.
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+#include <unistd.h>
+
+#include <array>
+#include <cstdint>
+#include <exception>
+#include <mutex>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+
+#include "config.hpp"
+#include "failure.hpp"
+#include "flowdlo/flowdlo.hpp"
+#include "results.hpp"
+
+namespace flowdlo::python {
+namespace {
+
+namespace py = pybind11;
+
+using Floats = py::array_t<float, py::array::c_style>;
+using Bytes = py::array_t<std::uint8_t, py::array::c_style>;
+
+/// The value, or the exception that its error is. To be called with the interpreter's lock.
+template <class Value>
+Value value_of(Result<Value>&& result) {
+  if (!result) throw Failure(result.error());
+  return *std::move(result);
+}
+
+/// What `work` gives; meanwhile other threads of Python run.
+template <class Work>
+auto without_lock(const Work& work) {
+  const py::gil_scoped_release released;
+  return work();
+}
+
+template <class Value>
+std::span<const Value> span_of(const py::array_t<Value, py::array::c_style>& array) {
+  return {array.data(), static_cast<std::size_t>(array.size())};
+}
+
+/// One estimator, whose calls wait for each other when they come from several threads.
+class Handle {
+ public:
+  explicit Handle(const py::dict& given) {
+    const Config config = config_of(given);
+    estimator_ = value_of(without_lock([&] { return Estimator::create(config); }));
+  }
+  Handle(const Handle&) = delete;
+  Handle& operator=(const Handle&) = delete;
+  ~Handle() = default;
+
+  py::dict estimate(const Floats& depth_m, const Bytes& mask,
+                    const std::array<float, 4>& intrinsics, const std::optional<Bytes>& color) {
+    if (depth_m.ndim() != 2) refuse("Estimator.estimate: depth_m: expected two dimensions");
+    const auto& [fx, fy, cx, cy] = intrinsics;
+    Frame frame{.width = static_cast<int>(depth_m.shape(1)),
+                .height = static_cast<int>(depth_m.shape(0)),
+                .intrinsics = {fx, fy, cx, cy},
+                .depth_m = span_of(depth_m),
+                .mask = span_of(mask),
+                .color_bgr = {}};
+    if (color) frame.color_bgr = span_of(*color);
+    return dict_of(
+        value_of(locked([&](Estimator& estimator) { return estimator.estimate(frame); })));
+  }
+
+  [[nodiscard]] py::str device() {
+    return text(value_of(locked(
+        [](const Estimator& estimator) -> Result<std::string> { return estimator.device(); })));
+  }
+  [[nodiscard]] int euler_steps() {
+    return value_of(
+        locked([](const Estimator& estimator) -> Result<int> { return estimator.euler_steps(); }));
+  }
+  [[nodiscard]] int draws() {
+    return value_of(
+        locked([](const Estimator& estimator) -> Result<int> { return estimator.draws(); }));
+  }
+
+  void close() {
+    without_lock([&] {
+      const auto lock = alone();
+      estimator_.reset();
+    });
+  }
+
+ private:
+  /// In a process that was forked a thread that is not there any more may hold the mutex; the
+  /// estimator itself refuses to work there.
+  std::unique_lock<std::mutex> alone() {
+    return getpid() == process_ ? std::unique_lock(mutex_) : std::unique_lock<std::mutex>();
+  }
+
+  template <class Work>
+  auto locked(const Work& work) -> decltype(work(std::declval<Estimator&>())) {
+    return without_lock([&]() -> decltype(work(std::declval<Estimator&>())) {
+      const auto lock = alone();
+      if (estimator_) return work(*estimator_);
+      return Error{ErrorCode::kBadInput,
+                   "Estimator: expected an open one, got one that was closed; make a new one"};
+    });
+  }
+
+  pid_t process_ = getpid();
+  std::mutex mutex_;
+  std::optional<Estimator> estimator_;
+};
+
+void translate(std::exception_ptr thrown) {
+  try {
+    std::rethrow_exception(std::move(thrown));
+  } catch (const Failure& failure) {
+    const py::object type =
+        py::module_::import("flowdlo.errors").attr("of_code")(name_of(failure.code()));
+    PyErr_SetObject(type.ptr(), text(failure.what()).ptr());
+  }
+}
+
+}  // namespace
+
+PYBIND11_MODULE(_core, module) {
+  py::register_exception_translator(translate);
+
+  module.attr("NODES") = kNodes;
+  module.attr("VERSION") = FLOWDLO_VERSION;
+  py::list codes;
+  for (int code = 0; code <= static_cast<int>(ErrorCode::kOutOfMemory); ++code) {
+    codes.append(name_of(static_cast<ErrorCode>(code)));
+  }
+  module.attr("ERROR_CODES") = py::tuple(codes);
+  module.def("default_config", default_config);
+
+  py::class_<Handle>(module, "Estimator")
+      .def(py::init<const py::dict&>())
+      .def("estimate", &Handle::estimate, py::arg("depth_m").noconvert(),
+           py::arg("mask").noconvert(), py::arg("intrinsics"), py::arg("color_bgr").noconvert())
+      .def("close", &Handle::close)
+      .def_property_readonly("device", &Handle::device)
+      .def_property_readonly("euler_steps", &Handle::euler_steps)
+      .def_property_readonly("draws", &Handle::draws);
+
+  module.def("load_frame_folder", [](const py::bytes& folder) {
+    const std::string path = folder;
+    return dict_of(value_of(without_lock([&] { return load_frame_folder(path); })));
+  });
+  module.def("survey_devices", [](bool self_test) {
+    return dict_of(without_lock([&] { return survey_devices(self_test); }));
+  });
+  module.def("inspect_weights", [](const py::bytes& file) {
+    const std::string path = file;
+    return dict_of(value_of(without_lock([&] { return inspect_weights(path); })));
+  });
+}
+
+}  // namespace flowdlo::python

@@ -1,0 +1,70 @@
+"""FlowDLO: the complete ordered 3D centerline of a rope from one RGB-D frame.
+
+    import flowdlo
+
+    frame = flowdlo.load_frame_folder("examples/frames/overhand_loop")
+    with flowdlo.Estimator() as estimator:
+        estimate = estimator.estimate(frame.depth_m, frame.mask, frame.intrinsics, frame.color_bgr)
+    print(estimate.nodes, estimate.confidence)
+"""
+
+from ._core import NODES
+from ._core import VERSION as __version__
+from .errors import (
+    BadInput,
+    BadWeights,
+    DeviceLost,
+    Error,
+    Internal,
+    Io,
+    NoDevice,
+    NoEvidence,
+    NoPath,
+    OutOfMemory,
+)
+from .estimator import Estimator
+from .inspection import default_config, inspect_weights, load_frame_folder, survey_devices
+from .results import (
+    Alternative,
+    Device,
+    DeviceSurvey,
+    DrawReport,
+    Estimate,
+    FrameFolder,
+    Intrinsics,
+    OneRope,
+    TensorInfo,
+    Timings,
+    WeightsInfo,
+)
+
+__all__ = [
+    "NODES",
+    "Alternative",
+    "BadInput",
+    "BadWeights",
+    "Device",
+    "DeviceLost",
+    "DeviceSurvey",
+    "DrawReport",
+    "Error",
+    "Estimate",
+    "Estimator",
+    "FrameFolder",
+    "Internal",
+    "Intrinsics",
+    "Io",
+    "NoDevice",
+    "NoEvidence",
+    "NoPath",
+    "OneRope",
+    "OutOfMemory",
+    "TensorInfo",
+    "Timings",
+    "WeightsInfo",
+    "__version__",
+    "default_config",
+    "inspect_weights",
+    "load_frame_folder",
+    "survey_devices",
+]

@@ -1,0 +1,150 @@
+"""Frame in, centerline out."""
+
+from __future__ import annotations
+
+import os
+from types import TracebackType
+from typing import Any, Union
+
+import numpy.typing as npt
+
+from . import _core, arguments
+from .results import Alternative, DrawReport, Estimate, OneRope, Timings
+
+Path = Union[str, bytes, "os.PathLike[str]", "os.PathLike[bytes]"]
+
+
+class Estimator:
+    """Owns the device and the weights: make one at start-up, call `estimate` for every frame.
+
+    Every argument may be left out or None, which stands for the library's default
+    (`flowdlo.default_config()` lists them):
+
+    weights: a .fdw file; by default the one that comes with the library.
+    device: "auto" takes the best real GPU whose self-test passes, otherwise the CPU; "cpu";
+        "vulkan", any Vulkan device; or part of a device's name, or its UUID.
+    quality: "full", or "fast", which takes the place of the next two.
+    euler_steps: of the model, 1..64.
+    draws: of the model for each frame, 1..64.
+    seed: 0..2**64 - 1; the same seed, frame and device give the same bits.
+    prior: "auto", "thesis" or "refined".
+    gate: "auto", "thesis" or "calibrated".
+    field: "auto", or "off": the network that sees strands where the mask leaves doubt.
+    field_weights: its .safetensors file; by default the one beside the weights.
+    rope_length_m: of the whole rope, metres, where it is known: helps at crossings.
+    threads: of the CPU back end; 0 is one for each core.
+    max_width, max_height: largest frame for which memory is set aside, pixels.
+    device_timeout_ms: a frame that takes longer on a Vulkan device is `DeviceLost`; 0: chosen.
+    validation: Vulkan's validation layers; slow.
+
+    Raises BadInput, BadWeights, Io, NoDevice or OutOfMemory. Other threads of Python run during the
+    constructor and during `estimate`. Calls from several threads on one estimator wait for each
+    other; estimators of their own run at the same time. After a fork make a new one in the child.
+    """
+
+    def __init__(
+        self,
+        *,
+        weights: Path | None = None,
+        device: str | None = None,
+        quality: str | None = None,
+        euler_steps: int | None = None,
+        draws: int | None = None,
+        seed: int | None = None,
+        prior: str | None = None,
+        gate: str | None = None,
+        field: str | None = None,
+        field_weights: Path | None = None,
+        rope_length_m: float | None = None,
+        threads: int | None = None,
+        max_width: int | None = None,
+        max_height: int | None = None,
+        device_timeout_ms: int | None = None,
+        validation: bool | None = None,
+    ) -> None:
+        given: dict[str, Any] = {
+            "device": device,
+            "quality": quality,
+            "euler_steps": euler_steps,
+            "draws": draws,
+            "seed": seed,
+            "prior": prior,
+            "gate": gate,
+            "field": field,
+            "rope_length_m": rope_length_m,
+            "threads": threads,
+            "max_width": max_width,
+            "max_height": max_height,
+            "device_timeout_ms": device_timeout_ms,
+            "validation": validation,
+        }
+        for name, file in (("weights", weights), ("field_weights", field_weights)):
+            given[name] = None if file is None else arguments.path(name, file)
+        self._core = _core.Estimator({k: v for k, v in given.items() if v is not None})
+
+    def estimate(
+        self,
+        depth_m: npt.ArrayLike,
+        mask: npt.ArrayLike,
+        intrinsics: Any,
+        color_bgr: npt.ArrayLike | None = None,
+        *,
+        depth_scale: float | None = None,
+    ) -> Estimate:
+        """The centerline of the rope in one frame.
+
+        depth_m: [height, width] metres along z (not along the ray), floats; 0 or not finite where
+            nothing was measured. Integers, with `depth_scale`.
+        mask: [height, width], bool, or uint8 with the rope over 127.
+        intrinsics: (fx, fy, cx, cy) in pixels, or a camera matrix [3, 3].
+        color_bgr: uint8 [height, width, 3], where there is colour: it helps where the mask leaves
+            doubt. Of an RGB image pass image[..., ::-1].
+        depth_scale: metres a unit of an integer depth; 0.001 for millimetres.
+
+        Images are rectified, of one size, at most 4096 px a side, and aligned to one camera. Packed
+        (C-contiguous) float32, uint8 and uint8 are read where they lie; all else is copied first.
+
+        Raises BadInput, NoEvidence, NoPath, DeviceLost or OutOfMemory. A rejected prediction is no
+        failure: the estimate is then the prior, and `source` says so.
+        """
+        metres = arguments.depth(depth_m, depth_scale)
+        rope = arguments.mask(mask)
+        color = arguments.color(color_bgr)
+        arguments.same_size(metres, rope, color)
+        camera = arguments.intrinsics(intrinsics)
+        found = self._core.estimate(metres, rope, camera, color)
+        found["one_rope"] = OneRope(**found["one_rope"])
+        found["draws"] = tuple(DrawReport(**draw) for draw in found["draws"])
+        found["alternatives"] = tuple(Alternative(**other) for other in found["alternatives"])
+        found["timings"] = Timings(**found["timings"])
+        return Estimate(**found)
+
+    @property
+    def device(self) -> str:
+        """"cpu", or the name of the Vulkan device in use."""
+        return self._core.device
+
+    @property
+    def euler_steps(self) -> int:
+        """Steps of the model in use."""
+        return self._core.euler_steps
+
+    @property
+    def draws(self) -> int:
+        """Draws of the model in use."""
+        return self._core.draws
+
+    def close(self) -> None:
+        """Frees device and weights now. Later calls raise BadInput; closing again does nothing."""
+        self._core.close()
+
+    def __enter__(self) -> Estimator:
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        traceback: TracebackType | None,
+    ) -> None:
+        self.close()

@@ -1,0 +1,44 @@
+"""Frames on disk, devices, and weights files."""
+
+from __future__ import annotations
+
+import os
+from typing import Any
+
+from . import _core, arguments
+from .estimator import Path
+from .results import Device, DeviceSurvey, FrameFolder, Intrinsics, TensorInfo, WeightsInfo
+
+
+def default_config() -> dict[str, Any]:
+    """Every keyword of `Estimator` and what it is when left out; an empty path: found by itself."""
+    config = _core.default_config()
+    return {name: os.fsdecode(v) if isinstance(v, bytes) else v for name, v in config.items()}
+
+
+def load_frame_folder(folder: Path) -> FrameFolder:
+    """Reads depth.png, mask.png, camera.json and, where present, color.png and truth.csv.
+
+    Raises Io, BadInput or OutOfMemory, naming the file and what to do.
+    """
+    found = _core.load_frame_folder(arguments.path("folder", folder))
+    found["intrinsics"] = Intrinsics(*found["intrinsics"])
+    return FrameFolder(**found)
+
+
+def survey_devices(self_test: bool = False) -> DeviceSurvey:
+    """Looks at every Vulkan device.
+
+    With `self_test` it runs a model of known answers on each usable one, which takes a while. Never
+    fails: a machine without Vulkan has no devices, and `advice` says why.
+    """
+    found = _core.survey_devices(bool(self_test))
+    found["vulkan"] = tuple(Device(**device) for device in found["vulkan"])
+    return DeviceSurvey(**found)
+
+
+def inspect_weights(file: Path) -> WeightsInfo:
+    """Reads and verifies a .fdw file. Raises Io or BadWeights, listing every mismatch."""
+    found = _core.inspect_weights(arguments.path("file", file))
+    found["tensors"] = tuple(TensorInfo(**tensor) for tensor in found["tensors"])
+    return WeightsInfo(**found)

@@ -1,0 +1,67 @@
+"""Frames on disk, devices, and weights files."""
+
+import hashlib
+import json
+import os
+import subprocess
+
+import numpy as np
+
+import flowdlo
+
+
+def test_a_frame_folder_holds_what_is_documented(examples, folder):
+    camera = json.loads((examples / "frames" / "overhand_loop" / "camera.json").read_text())
+    shape = (camera["height"], camera["width"])
+    assert folder.name == "overhand_loop"
+    assert folder.depth_m.shape == shape and folder.depth_m.dtype == np.float32
+    assert folder.mask.shape == shape and folder.mask.dtype == np.uint8
+    assert folder.color_bgr.shape == (*shape, 3) and folder.color_bgr.dtype == np.uint8
+    assert folder.truth.shape == (64, 3) and folder.truth.dtype == np.float32
+    assert folder.intrinsics == tuple(np.float32(camera[name]) for name in ("fx", "fy", "cx", "cy"))
+    assert 0.3 < np.median(folder.depth_m[folder.mask > 127]) < 1
+    csv = np.loadtxt(
+        examples / "frames" / "overhand_loop" / "truth.csv", delimiter=",", skiprows=1
+    )
+    assert np.array_equal(folder.truth, csv.astype(np.float32))
+
+
+def test_its_arrays_outlive_it(examples):
+    depth = flowdlo.load_frame_folder(examples / "frames" / "overhand_loop").depth_m
+    again = flowdlo.load_frame_folder(examples / "frames" / "overhand_loop").depth_m
+    assert np.array_equal(depth, again) and not np.shares_memory(depth, again)
+    depth[0, 0] = 7
+    assert depth[0, 0] == 7
+
+
+def test_a_folder_without_color_and_truth_has_none(examples, tmp_path):
+    for name in ("depth.png", "mask.png", "camera.json"):
+        content = (examples / "frames" / "overhand_loop" / name).read_bytes()
+        (tmp_path / name).write_bytes(content)
+    folder = flowdlo.load_frame_folder(tmp_path)
+    assert folder.color_bgr is None and folder.truth is None
+
+
+def test_devices_are_those_of_the_command(command):
+    said = json.loads(subprocess.run([command, "devices", "--json"], capture_output=True).stdout)
+    survey = flowdlo.survey_devices(self_test=True)
+    assert [device.uuid for device in survey.vulkan] == [one["uuid"] for one in said["vulkan"]]
+    assert survey.loader == said["loader"]
+    for device in survey.vulkan:
+        assert device.kind in ("discrete_gpu", "integrated_gpu", "virtual_gpu", "cpu", "other")
+        assert len(device.uuid) == 32
+        assert device.lacks or device.self_test_passed is not None
+    assert survey.auto_choice
+
+
+def test_devices_are_not_tried_unless_asked():
+    assert all(device.self_test_passed is None for device in flowdlo.survey_devices().vulkan)
+
+
+def test_weights_can_be_looked_into():
+    file = os.environ["FLOWDLO_WEIGHTS"]
+    info = flowdlo.inspect_weights(file)
+    assert info.parameters == sum(int(np.prod(tensor.shape)) for tensor in info.tensors)
+    assert {tensor.dtype for tensor in info.tensors} <= {"f32", "f16"}
+    assert len(bytes.fromhex(info.sha256)) == hashlib.sha256().digest_size
+    assert info.metadata
