@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <opencv2/imgproc.hpp>
 #include <utility>
@@ -27,6 +28,8 @@ constexpr std::size_t kChordPoints = 4;  // of a path, for finding where two cro
 constexpr float kFlattest = 0.3F;        // sine from which on a crossing gets no longer
 constexpr float kZone = 0.75F;           // of both widths over the sine: how far a crossing reaches
 constexpr float kBesideWidths = 2.0F;    // of a rope beside a crossing, which tells its depth
+constexpr float kStretchWidths = 8.0F;   // of a path around a crossing,
+constexpr float kStretchStep = 0.125F;   // in steps of so many widths
 constexpr float kMostWidth = 1.6F;       // a rope is at most so many times as wide as is usual
 constexpr float kEvenLead = 1.2F;        // of a set, in its costs: every other rope is right here,
 constexpr float kLeadScale = 0.5F;       // as flowdlo_ropes_report has it on 128 drawn scenes
@@ -98,6 +101,28 @@ std::vector<Meeting> meetings(const Path& a, const Path& b) {
   return result;
 }
 
+// A path around one of its samples, for asking how far places are from it.
+class Stretch {
+ public:
+  Stretch(const Path& path, std::size_t sample, float width_px) {
+    const auto reach = static_cast<std::size_t>(kStretchWidths * width_px) + 1;
+    const auto step = static_cast<std::size_t>(std::max(1.0F, kStretchStep * width_px));
+    const std::size_t last = std::min(sample + reach, path.points_px.size() - 1);
+    for (std::size_t i = sample > reach ? sample - reach : 0; i <= last; i += step) {
+      points_.push_back(path.points_px[i]);
+    }
+  }
+
+  [[nodiscard]] float away_px(const Vector2f& p) const {
+    float least = std::numeric_limits<float>::max();
+    for (const Vector2f& q : points_) least = std::min(least, (p - q).squaredNorm());
+    return std::sqrt(least);
+  }
+
+ private:
+  std::vector<Vector2f> points_;
+};
+
 class Parting {
  public:
   Parting(const Frame& frame, Parted& parted) : frame_(frame), parted_(parted) {
@@ -106,7 +131,6 @@ class Parting {
     cv::Mat inside;
     cv::distanceTransform(mask > 127, inside, cv::DIST_L2, 5);
     for (const Path& path : ropes()) {
-      distances_.push_back(distance_to(path, frame));
       parted_.width_px.push_back(width_along(path, inside, parted.paths.rope_width_px));
     }
   }
@@ -116,15 +140,15 @@ class Parting {
   void share_out() {
     const std::size_t pixels = frame_.mask.size();
     parted_.instances.assign(pixels, 0);
-    for (std::size_t p = 0; p < pixels; ++p) {
-      if (!masked(frame_, p)) continue;
-      std::size_t nearest = 0;
-      for (std::size_t r = 1; r < ropes().size(); ++r) {
-        if (away(r, p) * parted_.width_px[nearest] < away(nearest, p) * parted_.width_px[r]) {
-          nearest = r;
-        }
+    std::vector<float> least(pixels, std::numeric_limits<float>::max());
+    for (std::size_t r = 0; r < ropes().size(); ++r) {
+      const cv::Mat distance = distance_to(ropes()[r], frame_);
+      const auto* away = distance.ptr<float>();
+      for (std::size_t p = 0; p < pixels; ++p) {
+        if (!masked(frame_, p) || away[p] >= least[p] * parted_.width_px[r]) continue;
+        least[p] = away[p] / parted_.width_px[r];
+        parted_.instances[p] = static_cast<std::uint16_t>(r + 1);
       }
-      parted_.instances[p] = static_cast<std::uint16_t>(nearest + 1);
     }
     for (std::size_t a = 0; a < ropes().size(); ++a) {
       for (std::size_t b = a + 1; b < ropes().size(); ++b) {
@@ -135,13 +159,11 @@ class Parting {
 
  private:
   [[nodiscard]] const std::vector<Path>& ropes() const { return parted_.paths.ropes; }
-  [[nodiscard]] float away(std::size_t rope, std::size_t pixel) const {
-    return reinterpret_cast<const float*>(distances_[rope].data)[pixel];
-  }
 
   // The depth of a rope beside where it meets another: of its first pixels to either side that
   // are not the other's; 0 where none are measured.
-  [[nodiscard]] float depth_beside(std::size_t rope, std::size_t sample, std::size_t other) const {
+  [[nodiscard]] float depth_beside(std::size_t rope, std::size_t sample, const Stretch& other,
+                                   float other_px) const {
     const Path& path = ropes()[rope];
     const auto count = static_cast<std::ptrdiff_t>(path.points_px.size());
     float sum = 0;
@@ -151,8 +173,9 @@ class Parting {
       auto left = static_cast<int>(std::ceil(kBesideWidths * parted_.width_px[rope]));
       for (auto i = static_cast<std::ptrdiff_t>(sample); i >= 0 && i < count && left > 0;
            i += step) {
-        const std::size_t pixel = index_of(frame_, path.points_px[static_cast<std::size_t>(i)]);
-        if (away(other, pixel) < 0.5F * parted_.width_px[other] + 1.5F) continue;
+        const Vector2f& at = path.points_px[static_cast<std::size_t>(i)];
+        if (other.away_px(at) < 0.5F * other_px + 1.5F) continue;
+        const std::size_t pixel = index_of(frame_, at);
         --left;
         const float z = frame_.depth_m[pixel];
         if (masked(frame_, pixel) && geometry::measured(z)) depths.push_back(z);
@@ -177,8 +200,10 @@ class Parting {
   // What a crossing of `a` and `b` shows goes to the upper one: whose mask is whole there, or else
   // which is nearer beside it.
   void give(std::size_t a, std::size_t b, const Meeting& meeting) {
-    const float za = depth_beside(a, meeting.sample[0], b);
-    const float zb = depth_beside(b, meeting.sample[1], a);
+    const Stretch near_a(ropes()[a], meeting.sample[0], parted_.width_px[a]);
+    const Stretch near_b(ropes()[b], meeting.sample[1], parted_.width_px[b]);
+    const float za = depth_beside(a, meeting.sample[0], near_b, parted_.width_px[b]);
+    const float zb = depth_beside(b, meeting.sample[1], near_a, parted_.width_px[a]);
     bool first = za <= 0 || zb <= 0 || za <= zb;
     const bool bridges_a = bridged_at(a, meeting.sample[0]);
     if (bridges_a != bridged_at(b, meeting.sample[1])) first = !bridges_a;
@@ -197,7 +222,9 @@ class Parting {
                            static_cast<std::size_t>(u);
         const std::uint16_t now = parted_.instances[pixel];
         if (now != a + 1 && now != b + 1) continue;
-        if (away(upper, pixel) > 0.5F * parted_.width_px[upper] + 0.5F) continue;
+        const Vector2f p(static_cast<float>(u), static_cast<float>(v));
+        const float away_px = first ? near_a.away_px(p) : near_b.away_px(p);
+        if (away_px > 0.5F * parted_.width_px[upper] + 0.5F) continue;
         parted_.instances[pixel] = static_cast<std::uint16_t>(upper + 1);
       }
     }
@@ -205,7 +232,6 @@ class Parting {
 
   const Frame& frame_;
   Parted& parted_;
-  std::vector<cv::Mat> distances_;  // [ropes]
 };
 
 // The labels that cover more than a speck of the mask, in ascending order.

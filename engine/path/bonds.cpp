@@ -105,9 +105,10 @@ float passing(const Strands& strands, const Bridge& bridge, const StrandEnd& fro
 
 class Builder {
  public:
-  Builder(const Strands& strands, const Region& region, const Frame& frame)
+  Builder(const Strands& strands, const Region& region, const Frame& frame, bool rings)
       : strands_(strands),
         frame_(frame),
+        rings_(rings),
         cover_(region, frame, strands.width_px),
         bonds_(2 * strands.list.size()),
         kept_(bonds_.size()) {
@@ -292,7 +293,7 @@ class Builder {
   };
 
   void consider(int a, int b, float extra, std::vector<Gap>& gaps) const {
-    if (a / 2 == b / 2 || strands_.folds(a, b) || strands_.folds(b, a)) return;
+    if ((a / 2 == b / 2 && !rings_) || strands_.folds(a, b) || strands_.folds(b, a)) return;
     const float apart = (strands_.end(a).point_px - strands_.end(b).point_px).norm();
     const float straight = kGapStart + apart / (kGapWidths * strands_.scale_px);
     const float most = most_for(a, b);
@@ -320,6 +321,7 @@ class Builder {
 
   const Strands& strands_;
   const Frame& frame_;
+  bool rings_;
   Cover cover_;
   std::vector<std::vector<Bond>> bonds_;
   std::vector<std::vector<float>> kept_;                  // [ends] costs that are kept, ascending
@@ -330,8 +332,8 @@ class Builder {
 }  // namespace
 
 std::vector<std::vector<Bond>> make_bonds(const Strands& strands, const Region& region,
-                                          const Frame& frame) {
-  return Builder(strands, region, frame).run();
+                                          const Frame& frame, bool rings) {
+  return Builder(strands, region, frame, rings).run();
 }
 
 }  // namespace flowdlo::path

@@ -25,7 +25,8 @@ constexpr float kBesideWidths = 1.0F;   // for so long at least
 constexpr float kBesideExcess = 0.55F;  // square widths more than one strand takes
 constexpr float kBesideClear = 2.2F;    // times what frays add elsewhere
 constexpr float kNotchLeast = 0.10F;    // how much narrower a notch is, in usual widths,
-constexpr float kNotchClear = 1.1F;     // times the deepest elsewhere
+constexpr float kNotchClear = 1.1F;     // times the deepest elsewhere;
+constexpr float kNotchOfEnds = 0.3F;    // this deep it is two round ends, and no fray of the border
 constexpr float kFitWidths = 4.0F;      // of a line to each side of a step
 constexpr float kTipWidths = 0.4F;      // where a tip's middle line ends
 constexpr float kStepWidths = 0.6F;     // about which it is blurred
@@ -126,7 +127,12 @@ std::optional<Beside> ends_beside(const Ring& ring) {
   return clear ? std::optional(best) : std::nullopt;
 }
 
-std::optional<int> notch(const Ring& ring) {
+struct Notch {
+  int at = 0;      // the point where it is deepest
+  float deep = 0;  // usual widths
+};
+
+std::optional<Notch> notch(const Ring& ring) {
   const int count = ring.count();
   const int half = ring.size_px() < 6 ? 1 : static_cast<int>(0.15F * ring.size_px());
   std::vector<float> width;
@@ -140,7 +146,7 @@ std::optional<int> notch(const Ring& ring) {
     elsewhere = std::max(elsewhere, usual - width[static_cast<std::size_t>(ring.wrap(i))]);
   }
   if (dip < std::max(kNotchLeast, kNotchClear * elsewhere)) return std::nullopt;
-  return least;
+  return Notch{least, dip};
 }
 
 // How far to the left the middle steps at point `at`, from the side of `inwards` to the other.
@@ -193,10 +199,10 @@ void open_rings(Graph& graph, const Region& region) {
       segment.points_px = passed_twice(ring, *ends);
       segment.length_px = length_of(segment.points_px);
       segment.opened = true;
-    } else if (const auto at = notch(ring)) {
-      std::rotate(segment.points_px.begin(), segment.points_px.begin() + *at,
+    } else if (const auto ends = notch(ring)) {
+      std::rotate(segment.points_px.begin(), segment.points_px.begin() + ends->at,
                   segment.points_px.end());
-      segment.opened = true;
+      segment.opened = ends->deep >= kNotchOfEnds;
     }
   }
 }

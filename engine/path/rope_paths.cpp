@@ -61,7 +61,7 @@ float width_misfit(float a, float b) {
 // The bonds of several ropes, which need not be of one width.
 std::vector<std::vector<Bond>> bonds_of_several(const Strands& strands, const Region& region,
                                                 const Frame& frame) {
-  auto bonds = make_bonds(strands, region, frame);
+  auto bonds = make_bonds(strands, region, frame, true);
   const std::vector<float> widths = end_widths(strands, region);
   for (std::size_t from = 0; from < bonds.size(); ++from) {
     for (Bond& bond : bonds[from]) {
@@ -121,8 +121,8 @@ Result<RopePaths> rope_paths(const Strands& given, const Region& region, const F
   if (ropes != 1) {
     for (Strand& strand : strands.list) strand.folding = false;
   }
-  const auto bonds =
-      ropes == 1 ? make_bonds(strands, region, frame) : bonds_of_several(strands, region, frame);
+  const auto bonds = ropes == 1 ? make_bonds(strands, region, frame, true)
+                                : bonds_of_several(strands, region, frame);
   const auto sets = search_sets(strands, bonds, ropes, kSets);
   if (sets.empty()) return no_set(ropes, strands);
   RopePaths result;

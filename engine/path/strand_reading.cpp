@@ -38,8 +38,7 @@ Result<Traversals> trace_strands(const Frame& frame, const field::Axes& axes,
     for (const field::AxisLine& line : axes.lines) {
       stretches.push_back(stretch_of(line, *region));
     }
-    return rank(make_strands(stretches, axes.width_px, *region, frame), *region, frame,
-                config);
+    return rank(make_strands(stretches, axes.width_px, *region, frame), *region, frame, config);
   });
 }
 

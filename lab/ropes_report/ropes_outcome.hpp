@@ -24,9 +24,9 @@ struct RopesOutcome {
   int crossings_right = 0;         ///< and of these those with the right one above
   double parting_ms = 0;
   double total_ms = 0;
-  std::string error;            ///< where there is no answer
+  std::string error;                     ///< where there is no answer
   std::vector<std::uint16_t> instances;  ///< as Ropes has them
-  std::vector<Estimate> ropes;  ///< as found
+  std::vector<Estimate> ropes;           ///< as found
 };
 
 /// How ropes are told apart.
