@@ -83,6 +83,8 @@ void each_field(Config& config, const Visit& visit) {
   visit("field", config.field, kFields);
   visit("field_weights", config.field_weights);
   visit("rope_length_m", config.rope_length_m);
+  visit("ropes", config.ropes);
+  visit("budget_ms", config.budget_ms);
   visit("threads", config.threads);
   visit("max_width", config.max_width);
   visit("max_height", config.max_height);

@@ -13,6 +13,7 @@
 #include <span>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "config.hpp"
 #include "failure.hpp"
@@ -26,6 +27,7 @@ namespace py = pybind11;
 
 using Floats = py::array_t<float, py::array::c_style>;
 using Bytes = py::array_t<std::uint8_t, py::array::c_style>;
+using Labels = py::array_t<std::uint16_t, py::array::c_style>;
 
 /// The value, or the exception that its error is. To be called with the interpreter's lock.
 template <class Value>
@@ -46,6 +48,57 @@ std::span<const Value> span_of(const py::array_t<Value, py::array::c_style>& arr
   return {array.data(), static_cast<std::size_t>(array.size())};
 }
 
+Frame frame_of(const Floats& depth_m, const Bytes& mask, const std::array<float, 4>& intrinsics,
+               const std::optional<Bytes>& color) {
+  if (depth_m.ndim() != 2) refuse("Estimator.estimate: depth_m: expected two dimensions");
+  const auto& [fx, fy, cx, cy] = intrinsics;
+  Frame frame{.width = static_cast<int>(depth_m.shape(1)),
+              .height = static_cast<int>(depth_m.shape(0)),
+              .intrinsics = {fx, fy, cx, cy},
+              .depth_m = span_of(depth_m),
+              .mask = span_of(mask),
+              .color_bgr = {}};
+  if (color) frame.color_bgr = span_of(*color);
+  return frame;
+}
+
+/// [64, 3] as the library has it.
+Centerline centerline_of(const Floats& nodes) {
+  if (nodes.ndim() != 2 || nodes.shape(0) != kNodes || nodes.shape(1) != 3) {
+    refuse("nodes: expected float32 [64, 3], as Estimate.nodes");
+  }
+  Centerline centerline{};
+  for (std::size_t i = 0; i < kNodes; ++i) {
+    const float* const node = nodes.data() + 3 * i;
+    centerline[i] = {node[0], node[1], node[2]};
+  }
+  return centerline;
+}
+
+/// A pixel of two numbers, a point of three.
+Place place_of(const std::vector<float>& numbers) {
+  if (numbers.size() == 2) return Pixel{numbers[0], numbers[1]};
+  if (numbers.size() == 3) return Point3{numbers[0], numbers[1], numbers[2]};
+  refuse("a place: expected a pixel (u, v) or a point (x, y, z)");
+}
+
+Hints hints_of(const py::dict& given) {
+  Hints hints;
+  if (given.contains("first_end")) {
+    hints.first_end = place_of(given["first_end"].cast<std::vector<float>>());
+  }
+  if (given.contains("ends")) {
+    for (const auto& end : given["ends"].cast<std::vector<std::vector<float>>>()) {
+      hints.ends.push_back(place_of(end));
+    }
+  }
+  if (given.contains("rope_length_m")) hints.rope_length_m = given["rope_length_m"].cast<double>();
+  if (given.contains("previous")) {
+    hints.previous = centerline_of(given["previous"].cast<Floats>());
+  }
+  return hints;
+}
+
 /// One estimator, whose calls wait for each other when they come from several threads.
 class Handle {
  public:
@@ -58,18 +111,22 @@ class Handle {
   ~Handle() = default;
 
   py::dict estimate(const Floats& depth_m, const Bytes& mask,
-                    const std::array<float, 4>& intrinsics, const std::optional<Bytes>& color) {
-    if (depth_m.ndim() != 2) refuse("Estimator.estimate: depth_m: expected two dimensions");
-    const auto& [fx, fy, cx, cy] = intrinsics;
-    Frame frame{.width = static_cast<int>(depth_m.shape(1)),
-                .height = static_cast<int>(depth_m.shape(0)),
-                .intrinsics = {fx, fy, cx, cy},
-                .depth_m = span_of(depth_m),
-                .mask = span_of(mask),
-                .color_bgr = {}};
-    if (color) frame.color_bgr = span_of(*color);
+                    const std::array<float, 4>& intrinsics, const std::optional<Bytes>& color,
+                    const py::dict& hints) {
+    const Frame frame = frame_of(depth_m, mask, intrinsics, color);
+    const Hints known = hints_of(hints);
     return dict_of(
-        value_of(locked([&](Estimator& estimator) { return estimator.estimate(frame); })));
+        value_of(locked([&](Estimator& estimator) { return estimator.estimate(frame, known); })));
+  }
+
+  py::dict estimate_ropes(const Floats& depth_m, const Bytes& mask,
+                          const std::array<float, 4>& intrinsics, const std::optional<Bytes>& color,
+                          const std::optional<Labels>& instances) {
+    Frame frame = frame_of(depth_m, mask, intrinsics, color);
+    if (instances) frame.instances = span_of(*instances);
+    return dict_of(
+        value_of(locked([&](Estimator& estimator) { return estimator.estimate_ropes(frame); })),
+        frame.width, frame.height);
   }
 
   [[nodiscard]] py::str device() {
@@ -141,12 +198,21 @@ PYBIND11_MODULE(_core, module) {
   py::class_<Handle>(module, "Estimator")
       .def(py::init<const py::dict&>())
       .def("estimate", &Handle::estimate, py::arg("depth_m").noconvert(),
-           py::arg("mask").noconvert(), py::arg("intrinsics"), py::arg("color_bgr").noconvert())
+           py::arg("mask").noconvert(), py::arg("intrinsics"), py::arg("color_bgr").noconvert(),
+           py::arg("hints"))
+      .def("estimate_ropes", &Handle::estimate_ropes, py::arg("depth_m").noconvert(),
+           py::arg("mask").noconvert(), py::arg("intrinsics"), py::arg("color_bgr").noconvert(),
+           py::arg("instances").noconvert())
       .def("close", &Handle::close)
       .def_property_readonly("device", &Handle::device)
       .def_property_readonly("euler_steps", &Handle::euler_steps)
       .def_property_readonly("draws", &Handle::draws);
 
+  module.def("curve", [](const Floats& nodes, int points) {
+    Estimate estimate;
+    estimate.nodes = centerline_of(nodes);
+    return array_of(value_of(estimate.curve(points)));
+  });
   module.def("load_frame_folder", [](const py::bytes& folder) {
     const std::string path = folder;
     return dict_of(value_of(without_lock([&] { return load_frame_folder(path); })));

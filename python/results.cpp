@@ -49,6 +49,18 @@ const char* name_of(Doubt doubt) {
   return "no_rope";
 }
 
+const char* name_of(LeftOut part) {
+  switch (part) {
+    case LeftOut::kModel:
+      return "model";
+    case LeftOut::kField:
+      return "strand_field";
+    case LeftOut::kReadings:
+      return "readings";
+  }
+  return "model";
+}
+
 const char* name_of(DeviceKind kind) {
   switch (kind) {
     case DeviceKind::kDiscreteGpu:
@@ -104,6 +116,8 @@ py::dict dict_of(const Estimate& estimate) {
     alternatives.append(py::dict("nodes"_a = array_of(other.nodes), "score"_a = other.score,
                                  "mask_agreement"_a = other.mask_agreement));
   }
+  py::list left_out;
+  for (const LeftOut part : estimate.left_out) left_out.append(name_of(part));
   py::array_t<bool> support(kNodes);
   for (int node = 0; node < kNodes; ++node) {
     support.mutable_at(node) = estimate.support[static_cast<std::size_t>(node)] != 0;
@@ -116,7 +130,29 @@ py::dict dict_of(const Estimate& estimate) {
       "calibrated"_a = estimate.calibrated, "readings"_a = estimate.readings,
       "one_rope"_a = dict_of(estimate.one_rope), "mask_agreement"_a = estimate.mask_agreement,
       "prior_mask_agreement"_a = estimate.prior_mask_agreement, "draws"_a = draws,
-      "alternatives"_a = alternatives, "timings"_a = dict_of(estimate.timings));
+      "alternatives"_a = alternatives, "timings"_a = dict_of(estimate.timings),
+      "closed"_a = estimate.closed, "reversed"_a = estimate.reversed,
+      "switched"_a = estimate.switched, "left_out"_a = py::tuple(left_out));
+}
+
+py::dict dict_of(Ropes&& ropes, int width, int height) {
+  py::list all;
+  for (const Estimate& rope : ropes.ropes) all.append(dict_of(rope));
+  py::list crossings;
+  for (const RopeCrossing& crossing : ropes.crossings) {
+    crossings.append(py::dict(
+        "over"_a = crossing.over, "under"_a = crossing.under, "over_at_m"_a = crossing.over_at_m,
+        "under_at_m"_a = crossing.under_at_m, "apart_m"_a = crossing.apart_m));
+  }
+  return py::dict("ropes"_a = all, "crossings"_a = crossings,
+                  "instances"_a = array_of(std::move(ropes.instances), {height, width}),
+                  "parting_ms"_a = ropes.parting_ms, "total_ms"_a = ropes.total_ms);
+}
+
+py::array_t<float> array_of(const std::vector<Point3>& points) {
+  static_assert(sizeof(Point3) == 3 * sizeof(float));
+  const auto count = static_cast<py::ssize_t>(points.size());
+  return {{count, py::ssize_t{3}}, &points.data()->x};
 }
 
 py::dict dict_of(const DeviceSurvey& survey) {

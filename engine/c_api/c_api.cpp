@@ -52,7 +52,7 @@ Result<void> check_there(const void* argument, const char* name) {
 template <class Struct>
 flowdlo_status initialise(Struct* given, std::size_t bytes, const Struct& value) {
   return told(guard::guarded(Kind<Struct>::kName, [&]() -> Result<void> {
-    if (const auto fits = check_size(given, bytes); !fits) return fits;
+    if (const auto fits = check_size(given, bytes); !fits) return fits.error();
     write(given, bytes, value);
     return {};
   }));
@@ -77,7 +77,8 @@ flowdlo_config default_config() {
           .max_height = defaults.max_height,
           .device_timeout_ms = defaults.device_timeout_ms,
           .validation = defaults.validation ? 1 : 0,
-          .reserved = 0};
+          .reserved = 0,
+          .budget_ms = defaults.budget_ms};
 }
 
 flowdlo_frame default_frame() {
@@ -105,6 +106,7 @@ Config config_of(const flowdlo_config& given) {
   config.max_height = given.max_height;
   config.device_timeout_ms = given.device_timeout_ms;
   config.validation = given.validation != 0;
+  config.budget_ms = given.budget_ms;
   return config;
 }
 
@@ -151,16 +153,18 @@ flowdlo_estimate plain(const Estimate& estimate) {
   out.model_ms = timings.model_ms;
   out.gate_ms = timings.gate_ms;
   out.total_ms = timings.total_ms;
+  for (const LeftOut part : estimate.left_out) out.left_out |= 1U << static_cast<unsigned>(part);
+  out.closed = estimate.closed ? 1 : 0;
   return out;
 }
 
 Result<void> create(const flowdlo_config* given, flowdlo_estimator** out) {
   if (const auto there = check_there(out, "flowdlo_estimator_create: estimator"); !there) {
-    return there;
+    return there.error();
   }
   flowdlo_config config = default_config();
   if (given != nullptr) {
-    if (const auto fits = check_size(given); !fits) return fits;
+    if (const auto fits = check_size(given); !fits) return fits.error();
     config = read(given, config);
     if (config.reserved != 0) {
       return Error{ErrorCode::kBadInput,
@@ -179,11 +183,11 @@ Result<void> create(const flowdlo_config* given, flowdlo_estimator** out) {
 Result<void> estimate(flowdlo_estimator* estimator, const flowdlo_frame* given,
                       flowdlo_estimate* out) {
   if (const auto there = check_there(estimator, "flowdlo_estimator_estimate: estimator"); !there) {
-    return there;
+    return there.error();
   }
   estimator->alternatives.clear();
-  if (const auto fits = check_size(given); !fits) return fits;
-  if (const auto fits = check_size(out); !fits) return fits;
+  if (const auto fits = check_size(given); !fits) return fits.error();
+  if (const auto fits = check_size(out); !fits) return fits.error();
   const auto frame = frame_of(read(given, default_frame()), estimator->copies);
   if (!frame) return frame.error();
   auto result = estimator->estimator.estimate(*frame);
@@ -197,9 +201,9 @@ Result<void> alternative(const flowdlo_estimator* estimator, std::int32_t index,
                          flowdlo_alternative* out) {
   if (const auto there = check_there(estimator, "flowdlo_estimator_alternative: estimator");
       !there) {
-    return there;
+    return there.error();
   }
-  if (const auto fits = check_size(out); !fits) return fits;
+  if (const auto fits = check_size(out); !fits) return fits.error();
   const auto& all = estimator->alternatives;
   if (index < 0 || static_cast<std::size_t>(index) >= all.size()) {
     return Error{ErrorCode::kBadInput,
@@ -217,9 +221,10 @@ Result<void> alternative(const flowdlo_estimator* estimator, std::int32_t index,
 }
 
 Result<void> load(const char* path, flowdlo_frame_folder** out) {
-  if (const auto there = check_there(path, "flowdlo_frame_folder_load: path"); !there) return there;
+  if (const auto there = check_there(path, "flowdlo_frame_folder_load: path"); !there)
+    return there.error();
   if (const auto there = check_there(out, "flowdlo_frame_folder_load: folder"); !there) {
-    return there;
+    return there.error();
   }
   auto folder = load_frame_folder(path);
   if (!folder) return folder.error();
@@ -231,9 +236,9 @@ flowdlo_image packed(const void* data, std::int32_t pixel) { return {data, 0, 0,
 
 Result<void> point_at(const flowdlo_frame_folder* folder, flowdlo_frame* out) {
   if (const auto there = check_there(folder, "flowdlo_frame_folder_frame: folder"); !there) {
-    return there;
+    return there.error();
   }
-  if (const auto fits = check_size(out); !fits) return fits;
+  if (const auto fits = check_size(out); !fits) return fits.error();
   const FrameFolder& content = folder->content;
   flowdlo_frame frame = default_frame();
   frame.depth = packed(content.depth_m.data(), FLOWDLO_PIXEL_F32);

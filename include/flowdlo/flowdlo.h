@@ -81,6 +81,7 @@ typedef struct flowdlo_config {
   int32_t device_timeout_ms; /* 0: chosen by the amount of work */
   int32_t validation;        /* Vulkan's validation layers: 0 or 1; slow */
   int32_t reserved;          /* 0 */
+  double budget_ms;          /* that an estimate may take, milliseconds; 0: no limit */
 } flowdlo_config;
 
 /* Fills `config` with the defaults. `struct_size` is sizeof(flowdlo_config). */
@@ -156,6 +157,13 @@ enum {
   FLOWDLO_DOUBT_GOES_ON = 8       /* depth shows the rope going on where the mask ends */
 };
 
+/* What flowdlo_config.budget_ms left no time for: bits of flowdlo_estimate.left_out. */
+enum {
+  FLOWDLO_LEFT_OUT_MODEL = 1,   /* the model's draws: the estimate is a prior */
+  FLOWDLO_LEFT_OUT_FIELD = 2,   /* the strand field, though there was doubt */
+  FLOWDLO_LEFT_OUT_READINGS = 4 /* some further readings of the mask, though there was doubt */
+};
+
 /* flowdlo::Estimate of <flowdlo/estimate.hpp>, which says more of each field, without the reports
  * of single draws and of the parts of a device's time. */
 typedef struct flowdlo_estimate {
@@ -189,6 +197,8 @@ typedef struct flowdlo_estimate {
   double model_ms;
   double gate_ms;
   double total_ms;
+  uint32_t left_out; /* FLOWDLO_LEFT_OUT_ bits; 0: nothing */
+  int32_t closed;    /* 1: a ring without ends: node 63 lies next to node 0 */
 } flowdlo_estimate;
 
 /* Fills `estimate` with zeros. `struct_size` is sizeof(flowdlo_estimate). */

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from . import _core
 from .errors import BadInput
 from .results import Intrinsics
 
@@ -104,6 +105,53 @@ def intrinsics(value: Any) -> tuple[float, float, float, float]:
     return Intrinsics(*(_single(number) for number in numbers.tolist()))
 
 
+def place(name: str, value: Any) -> list[float]:
+    """A pixel (u, v) or a point (x, y, z)."""
+    try:
+        numbers = np.asarray(value, dtype=np.float64)
+    except (TypeError, ValueError) as fault:
+        raise _bad_place(name, value) from fault
+    if numbers.shape not in ((2,), (3,)):
+        raise _bad_place(name, value)
+    return [_single(number) for number in numbers.tolist()]
+
+
+def number(name: str, value: Any) -> float:
+    """A finite number."""
+    if not _is_number(value):
+        raise BadInput(f"{name}: expected a number, got {value!r}")
+    return float(value)
+
+
+def nodes(name: str, value: Any) -> npt.NDArray[np.float32]:
+    """[64, 3], float32 and packed."""
+    points = _image(name, value, "[64, 3]", 2)
+    if points.shape != (_core.NODES, 3):
+        raise BadInput(
+            f"{name}: expected an estimate or its nodes [64, 3], got {_described(value, points)}"
+        )
+    with np.errstate(over="ignore"):  # the library ignores nodes that are not finite
+        return np.ascontiguousarray(points, dtype=np.float32)
+
+
+def labels(value: Any, depth_m: npt.NDArray[Any]) -> npt.NDArray[np.uint16]:
+    """Whose rope a pixel shows [height, width], uint16 and packed."""
+    image = _image("instances", value, "[height, width]", 2)
+    if image.dtype.kind not in "ui":
+        raise BadInput(f"instances: expected integers, got {image.dtype}; convert them")
+    if image.shape != depth_m.shape:
+        raise BadInput(
+            f"instances: expected {depth_m.shape[1]} x {depth_m.shape[0]} px as depth_m, got "
+            f"{image.shape[1]} x {image.shape[0]}; align the images"
+        )
+    if image.size and (image.min() < 0 or image.max() > 65535):
+        raise BadInput(
+            f"instances: expected labels of 0 to 65535, got {image.min()} to {image.max()}; "
+            "number them anew"
+        )
+    return np.ascontiguousarray(image, dtype=np.uint16)
+
+
 def same_size(
     depth_m: npt.NDArray[Any], mask_image: npt.NDArray[Any], color_bgr: npt.NDArray[Any] | None
 ) -> None:
@@ -141,6 +189,12 @@ def _is_number(value: Any) -> bool:
 def _single(number: float) -> float:
     with np.errstate(over="ignore"):  # the library refuses what is infinite, and says so
         return float(np.float32(number))
+
+
+def _bad_place(name: str, value: Any) -> BadInput:
+    return BadInput(
+        f"{name}: expected a pixel (u, v) or a point (x, y, z) in metres, got {value!r}"
+    )
 
 
 def _bad_intrinsics(value: Any) -> BadInput:

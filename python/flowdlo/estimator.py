@@ -3,13 +3,23 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Sequence
 from types import TracebackType
 from typing import Any, Union
 
+import numpy as np
 import numpy.typing as npt
 
 from . import _core, arguments
-from .results import Alternative, DrawReport, Estimate, OneRope, Timings
+from .results import (
+    Alternative,
+    DrawReport,
+    Estimate,
+    OneRope,
+    RopeCrossing,
+    Ropes,
+    Timings,
+)
 
 Path = Union[str, bytes, "os.PathLike[str]", "os.PathLike[bytes]"]
 
@@ -32,6 +42,9 @@ class Estimator:
     field: "auto", or "off": the network that sees strands where the mask leaves doubt.
     field_weights: its .safetensors file; by default the one beside the weights.
     rope_length_m: of the whole rope, metres, where it is known: helps at crossings.
+    ropes: how many `estimate_ropes` looks for, 1..32; 0: as many as there are.
+    budget_ms: milliseconds that an estimate may take; what would end too late is left out, and
+        `Estimate.left_out` says what. 0: as long as it takes.
     threads: of the CPU back end; 0 is one for each core.
     max_width, max_height: largest frame for which memory is set aside, pixels.
     device_timeout_ms: a frame that takes longer on a Vulkan device is `DeviceLost`; 0: chosen.
@@ -56,6 +69,8 @@ class Estimator:
         field: str | None = None,
         field_weights: Path | None = None,
         rope_length_m: float | None = None,
+        ropes: int | None = None,
+        budget_ms: float | None = None,
         threads: int | None = None,
         max_width: int | None = None,
         max_height: int | None = None,
@@ -72,6 +87,8 @@ class Estimator:
             "gate": gate,
             "field": field,
             "rope_length_m": rope_length_m,
+            "ropes": ropes,
+            "budget_ms": budget_ms,
             "threads": threads,
             "max_width": max_width,
             "max_height": max_height,
@@ -90,6 +107,10 @@ class Estimator:
         color_bgr: npt.ArrayLike | None = None,
         *,
         depth_scale: float | None = None,
+        first_end: npt.ArrayLike | None = None,
+        ends: Sequence[npt.ArrayLike] = (),
+        rope_length_m: float | None = None,
+        previous: Estimate | npt.ArrayLike | None = None,
     ) -> Estimate:
         """The centerline of the rope in one frame.
 
@@ -100,6 +121,12 @@ class Estimator:
         color_bgr: uint8 [height, width, 3], where there is colour: it helps where the mask leaves
             doubt. Of an RGB image pass image[..., ::-1].
         depth_scale: metres a unit of an integer depth; 0.001 for millimetres.
+        first_end: a place, whose nearest end becomes node 0: a pixel (u, v), or a point (x, y, z)
+            of the camera frame in metres.
+        ends: places of ends of the rope, two at most: evidence for the way through the mask.
+        rope_length_m: of this frame's rope, metres.
+        previous: the estimate of the frame before, or its nodes: the order of the ends is kept, and
+            of ways that the frame does not tell apart the one near it is taken.
 
         Images are rectified, of one size, at most 4096 px a side, and aligned to one camera. Packed
         (C-contiguous) float32, uint8 and uint8 are read where they lie; all else is copied first.
@@ -107,17 +134,42 @@ class Estimator:
         Raises BadInput, NoEvidence, NoPath, DeviceLost or OutOfMemory. A rejected prediction is no
         failure: the estimate is then the prior, and `source` says so.
         """
-        metres = arguments.depth(depth_m, depth_scale)
-        rope = arguments.mask(mask)
-        color = arguments.color(color_bgr)
-        arguments.same_size(metres, rope, color)
-        camera = arguments.intrinsics(intrinsics)
-        found = self._core.estimate(metres, rope, camera, color)
-        found["one_rope"] = OneRope(**found["one_rope"])
-        found["draws"] = tuple(DrawReport(**draw) for draw in found["draws"])
-        found["alternatives"] = tuple(Alternative(**other) for other in found["alternatives"])
-        found["timings"] = Timings(**found["timings"])
-        return Estimate(**found)
+        frame = _frame(depth_m, mask, intrinsics, color_bgr, depth_scale)
+        hints: dict[str, Any] = {}
+        if first_end is not None:
+            hints["first_end"] = arguments.place("first_end", first_end)
+        if len(ends) > 0:
+            hints["ends"] = [arguments.place("ends", end) for end in ends]
+        if rope_length_m is not None:
+            hints["rope_length_m"] = arguments.number("rope_length_m", rope_length_m)
+        if previous is not None:
+            nodes = previous.nodes if isinstance(previous, Estimate) else previous
+            hints["previous"] = arguments.nodes("previous", nodes)
+        return _estimate(self._core.estimate(*frame, hints))
+
+    def estimate_ropes(
+        self,
+        depth_m: npt.ArrayLike,
+        mask: npt.ArrayLike,
+        intrinsics: Any,
+        color_bgr: npt.ArrayLike | None = None,
+        *,
+        depth_scale: float | None = None,
+        instances: npt.ArrayLike | None = None,
+    ) -> Ropes:
+        """Every rope of one frame: as many as `ropes` of the constructor says.
+
+        instances: integers [height, width], where a segmentation knows which pixel is whose rope's:
+            each label on the mask is one rope then; 0: none.
+
+        Everything else is as for `estimate`.
+        """
+        frame = _frame(depth_m, mask, intrinsics, color_bgr, depth_scale)
+        labels = None if instances is None else arguments.labels(instances, frame[0])
+        found = self._core.estimate_ropes(*frame, labels)
+        found["ropes"] = tuple(_estimate(rope) for rope in found["ropes"])
+        found["crossings"] = tuple(RopeCrossing(**crossing) for crossing in found["crossings"])
+        return Ropes(**found)
 
     @property
     def device(self) -> str:
@@ -148,3 +200,30 @@ class Estimator:
         traceback: TracebackType | None,
     ) -> None:
         self.close()
+
+
+def _frame(
+    depth_m: npt.ArrayLike,
+    mask: npt.ArrayLike,
+    intrinsics: Any,
+    color_bgr: npt.ArrayLike | None,
+    depth_scale: float | None,
+) -> tuple[
+    npt.NDArray[np.float32],
+    npt.NDArray[np.uint8],
+    tuple[float, float, float, float],
+    npt.NDArray[np.uint8] | None,
+]:
+    metres = arguments.depth(depth_m, depth_scale)
+    rope = arguments.mask(mask)
+    color = arguments.color(color_bgr)
+    arguments.same_size(metres, rope, color)
+    return metres, rope, arguments.intrinsics(intrinsics), color
+
+
+def _estimate(found: dict[str, Any]) -> Estimate:
+    found["one_rope"] = OneRope(**found["one_rope"])
+    found["draws"] = tuple(DrawReport(**draw) for draw in found["draws"])
+    found["alternatives"] = tuple(Alternative(**other) for other in found["alternatives"])
+    found["timings"] = Timings(**found["timings"])
+    return Estimate(**found)

@@ -12,6 +12,8 @@ from typing import NamedTuple
 import numpy as np
 import numpy.typing as npt
 
+from . import _core
+
 
 class Intrinsics(NamedTuple):
     """Pinhole camera, pixels."""
@@ -94,6 +96,10 @@ class Estimate:
     draws: what the gate saw of each draw.
     alternatives: traversals that came close, best first; may be empty.
     timings: milliseconds of each stage.
+    closed: a ring without ends: node 63 lies next to node 0.
+    reversed: a hint made node 0 the end that it would not be without it.
+    switched: a hint made another hypothesis the answer.
+    left_out: what `budget_ms` left no time for, of "model", "strand_field", "readings".
     """
 
     nodes: npt.NDArray[np.float32]
@@ -110,12 +116,52 @@ class Estimate:
     draws: tuple[DrawReport, ...]
     alternatives: tuple[Alternative, ...]
     timings: Timings
+    closed: bool
+    reversed: bool
+    switched: bool
+    left_out: tuple[str, ...]
+
+    def curve(self, points: int) -> npt.NDArray[np.float32]:
+        """float32 [points, 3] of the smooth curve through the nodes, uniform in its arclength.
+
+        Metres, camera frame, from the first node to the last; 2 to 65536 points. Raises BadInput.
+        """
+        return _core.curve(self.nodes, points)
 
     def __repr__(self) -> str:
         return (
             f"<flowdlo.Estimate: {self.source}, confidence {self.confidence:.3f}, "
             f"{int(self.support.sum())} of {len(self.nodes)} nodes measured>"
         )
+
+
+@dataclass(frozen=True)
+class RopeCrossing:
+    """Where one rope passes over another, or over itself, in the image."""
+
+    over: int  #: index in Ropes.ropes of the nearer one
+    under: int
+    over_at_m: float  #: arclength from its node 0, metres
+    under_at_m: float
+    apart_m: float  #: by how much the one is nearer than the other along the ray, metres
+
+
+@dataclass(frozen=True, eq=False)
+class Ropes:
+    """All ropes of one frame.
+
+    ropes: an estimate of each, longest first; never empty.
+    crossings: which passes over which, and where.
+    instances: uint16 [height, width], which of `ropes` a pixel of the mask shows, from 1; 0: none.
+    parting_ms: milliseconds for telling the ropes apart.
+    total_ms: milliseconds of the call.
+    """
+
+    ropes: tuple[Estimate, ...]
+    crossings: tuple[RopeCrossing, ...]
+    instances: npt.NDArray[np.uint16]
+    parting_ms: float
+    total_ms: float
 
 
 @dataclass(frozen=True, eq=False)

@@ -1,0 +1,107 @@
+"""Several ropes, hints, a budget and the dense curve."""
+
+import numpy as np
+import pytest
+
+import flowdlo
+from conftest import SMALL
+
+CAMERA = flowdlo.Intrinsics(300, 300, 160, 120)
+
+
+def bars(*rows: int) -> tuple[np.ndarray, np.ndarray]:
+    """Straight ropes from left to right in those rows: depth in metres, labels from 1."""
+    labels = np.zeros((240, 320), dtype=np.uint16)
+    for number, row in enumerate(rows, start=1):
+        labels[row - 4 : row + 5, 40 : 280 - 10 * number] = number
+    return np.where(labels > 0, 0.5, 0.6).astype(np.float32), labels
+
+
+@pytest.fixture(scope="module")
+def all_ropes():
+    with flowdlo.Estimator(ropes=0, **SMALL) as made:
+        yield made
+
+
+def test_every_rope_is_found_longest_first(all_ropes):
+    depth_m, labels = bars(60, 120, 180)
+    found = all_ropes.estimate_ropes(depth_m, labels > 0, CAMERA)
+    assert isinstance(found, flowdlo.Ropes)
+    lengths = [np.linalg.norm(np.diff(r.nodes, axis=0), axis=1).sum() for r in found.ropes]
+    assert len(lengths) == 3
+    assert lengths == sorted(lengths, reverse=True)
+    assert found.crossings == ()
+    assert found.instances.dtype == np.uint16
+    assert np.array_equal(found.instances, labels)
+    assert found.total_ms > found.parting_ms > 0
+
+
+def test_labels_tell_which_pixel_is_whose(estimator):
+    depth_m, labels = bars(100, 112)
+    found = estimator.estimate_ropes(depth_m, labels > 0, CAMERA, instances=labels.astype(np.int64))
+    assert len(found.ropes) == 2
+
+
+@pytest.mark.parametrize(
+    "labels", [np.zeros((240, 320)), np.zeros((10, 10), int), np.full((240, 320), -1)]
+)
+def test_labels_that_are_none_are_refused(estimator, labels):
+    depth_m, bar = bars(120)
+    with pytest.raises(flowdlo.BadInput, match="instances"):
+        estimator.estimate_ropes(depth_m, bar > 0, CAMERA, instances=labels)
+
+
+def test_the_first_end_is_the_one_that_is_named(estimator):
+    depth_m, bar = bars(120)
+    plain = estimator.estimate(depth_m, bar > 0, CAMERA)
+    assert not plain.reversed
+    turned = estimator.estimate(depth_m, bar > 0, CAMERA, first_end=(270, 120))
+    assert turned.reversed
+    assert np.array_equal(turned.nodes, plain.nodes[::-1])
+    by_point = estimator.estimate(depth_m, bar > 0, CAMERA, first_end=turned.nodes[0])
+    assert by_point.reversed
+
+
+def test_the_order_of_the_frame_before_is_kept(estimator):
+    depth_m, bar = bars(120)
+    turned = estimator.estimate(depth_m, bar > 0, CAMERA, first_end=(270, 120))
+    kept = estimator.estimate(depth_m, bar > 0, CAMERA, previous=turned)
+    assert kept.nodes[0, 0] > kept.nodes[-1, 0]
+    assert estimator.estimate(depth_m, bar > 0, CAMERA, previous=turned.nodes).reversed
+
+
+@pytest.mark.parametrize(
+    "hints",
+    [
+        {"first_end": (1, 2, 3, 4)},
+        {"first_end": "here"},
+        {"first_end": (9999, 120)},
+        {"ends": [(1, 2), (3, 4), (5, 6)]},
+        {"rope_length_m": -1.0},
+        {"rope_length_m": "long"},
+        {"previous": np.zeros((3, 3))},
+    ],
+)
+def test_hints_that_cannot_be_are_refused(estimator, hints):
+    depth_m, bar = bars(120)
+    with pytest.raises(flowdlo.BadInput):
+        estimator.estimate(depth_m, bar > 0, CAMERA, **hints)
+
+
+def test_the_curve_is_as_dense_as_asked(estimator):
+    depth_m, bar = bars(120)
+    estimate = estimator.estimate(depth_m, bar > 0, CAMERA)
+    curve = estimate.curve(500)
+    assert curve.shape == (500, 3) and curve.dtype == np.float32
+    assert np.allclose(curve[0], estimate.nodes[0], atol=1e-6)
+    assert np.allclose(curve[-1], estimate.nodes[-1], atol=1e-6)
+    with pytest.raises(flowdlo.BadInput, match="points"):
+        estimate.curve(1)
+
+
+def test_what_the_budget_left_out_is_said(ring):
+    with flowdlo.Estimator(budget_ms=1e-6, **SMALL) as hurried:
+        estimate = hurried.estimate(ring.depth_m, ring.mask, ring.intrinsics)
+    assert estimate.left_out == ("model", "strand_field", "readings")
+    with pytest.raises(flowdlo.BadInput, match="budget_ms"):
+        flowdlo.Estimator(budget_ms=-1.0, **SMALL)
