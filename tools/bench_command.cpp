@@ -128,8 +128,8 @@ Result<BenchReport> measure(const BenchOptions& options, Frames& frames) {
     report.timings.back().total_ms = total_ms;  // as the caller sees it
   }
   if (!one) {
-    report.frame =
-        fmt::format("{} ({} frames)", files::shown(options.frame.filename().string()), frames.count());
+    report.frame = fmt::format("{} ({} frames)", files::shown(options.frame.filename().string()),
+                               frames.count());
   }
   report.rss_mb = resident_mb();
   report.rss_peak_mb = peak_resident_mb();

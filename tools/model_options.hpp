@@ -8,8 +8,8 @@
 namespace flowdlo::tools {
 
 /// Adds --weights, --device, --steps, --draws, --seed, --threads, --budget, --prior, --gate,
-/// --field, --field-weights and --rope-length. `config` holds the defaults, receives the values, and must outlive the command's
-/// parsing.
+/// --field, --field-weights and --rope-length. `config` holds the defaults, receives the values,
+/// and must outlive the command's parsing.
 void add_model_options(CLI::App& command, Config& config);
 
 }  // namespace flowdlo::tools

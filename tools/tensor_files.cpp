@@ -16,8 +16,7 @@ namespace {
 enum class Type { kBool, kU8 };
 
 constexpr std::array<const char*, 10> kChannelNames = {  // docs/field.md
-    "centre",    "cos",       "sin",   "tip",  "under",
-    "under_cos", "under_sin", "width", "rope", "edge"};
+    "centre", "cos", "sin", "tip", "under", "under_cos", "under_sin", "width", "rope", "edge"};
 
 /// Pixel (x, y) of the field lies at origin + scale * (x, y), pixels of the frame.
 std::string region_json(const SeenStrands& strands) {

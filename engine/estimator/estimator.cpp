@@ -214,8 +214,8 @@ std::vector<int> Estimator::Impl::assign(
   return estimator::assign_draws(count, margin, config.draws);
 }
 
-Result<Estimate> Estimator::Impl::estimate(const Frame& frame, const Hints& hints,
-                                           Tensors* tensors, const estimator::Budget& budget,
+Result<Estimate> Estimator::Impl::estimate(const Frame& frame, const Hints& hints, Tensors* tensors,
+                                           const estimator::Budget& budget,
                                            const path::Traversals* traced) {
   if (auto valid = validate(frame); !valid) return valid.error();
   if (auto valid = estimator::check(hints, frame); !valid) return valid.error();
@@ -223,8 +223,8 @@ Result<Estimate> Estimator::Impl::estimate(const Frame& frame, const Hints& hint
   const auto ends = estimator::end_directions(hints, frame.intrinsics);
   Timings timings;
   estimator::Stopwatch total;
-  const auto conditions =
-      estimator::gather(frame, rope_length_m, prior_kind(), timings, ends, traced);  // Sec. 3.2, 3.3
+  const auto conditions = estimator::gather(frame, rope_length_m, prior_kind(), timings, ends,
+                                            traced);  // Sec. 3.2, 3.3
   estimator::Stopwatch stage;
   if (!conditions) return conditions.error();
   estimator::Rereading rereading(pool, readings(*conditions, frame), field ? &*field : nullptr,

@@ -46,7 +46,8 @@ Returned by_score(const std::vector<gate::Candidate>& candidates, const Hints& h
         guest_of(*before, candidates, look, conditions.paths.rope_width_px, frame, rope_length_m);
     beside.guest_log_prior = log_priors({*beside.guest}, hints, frame.intrinsics).front();
   }
-  const gate::Choice choice = gate::choose_calibrated(candidates, gate::fitted_weights(candidates), beside);
+  const gate::Choice choice =
+      gate::choose_calibrated(candidates, gate::fitted_weights(candidates), beside);
   Returned returned{.confidence = static_cast<float>(choice.probability),
                     .sigma_m = choice.sigma_m,
                     .switched = choice.switched};

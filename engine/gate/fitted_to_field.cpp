@@ -1,6 +1,6 @@
 // Written by flowdlo_gate_fit; do not edit. Each list is in the order of its features.
-// Fitted on 255 doubtful scenes of wide training from 1000000, and 2241 and 19 of thesis without a model;
-// weights 59f850ab35794e5c...
+// Fitted on 255 doubtful scenes of wide training from 1000000,
+// and 2241 and 19 of thesis without a model; weights 59f850ab35794e5c...
 #include "gate/calibrated.hpp"
 
 namespace flowdlo::gate {

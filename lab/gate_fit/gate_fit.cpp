@@ -262,8 +262,8 @@ int fit(const Options& options) {
   const auto weights = lab::fit_gate(all, *clean);
   const auto info = flowdlo::inspect_weights(options.weights);
   const std::string origin = fmt::format(
-      "Fitted on {} {}scenes of {} {} from {}, and {} and {} of thesis without a model;\n"
-      "// weights {}...",
+      "Fitted on {} {}scenes of {} {} from {},\n"
+      "// and {} and {} of thesis without a model; weights {}...",
       samples->size(), seen ? "doubtful " : "", options.split, options.part, options.first,
       more->size(), clean->size(), info ? info->sha256.substr(0, 16) : "unknown");
   const std::string text =

@@ -31,7 +31,9 @@ struct Seen {
     field.region = {{0, 0, 320, 240}, {320, 240}, {1, 1}};
     field.channels = painted_field(axes, {320, 240});
   }
-  [[nodiscard]] Result<Traversals> traced() const { return trace_strands(canvas.frame(), field::axes(field)); }
+  [[nodiscard]] Result<Traversals> traced() const {
+    return trace_strands(canvas.frame(), field::axes(field));
+  }
 };
 
 /// Two legs 8 px apart, one after the other, and the bend that joins them.
