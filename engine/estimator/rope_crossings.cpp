@@ -27,7 +27,7 @@ struct Line {
 
   Line(const Estimate& rope, const Intrinsics& camera) {
     for (const Point3& p : rope.nodes) add({p.x, p.y, p.z}, camera);
-    if (rope.closed && !nodes.empty()) add(nodes.front(), camera);
+    if (rope.closed && !nodes.empty()) add(Vector3d(nodes.front()), camera);
   }
 
   void add(const Vector3d& p, const Intrinsics& camera) {

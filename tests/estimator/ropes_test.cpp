@@ -251,6 +251,23 @@ TEST(RopeCrossings, LinesThatCrossBackWithinTwoWidthsDoNotCross) {
   EXPECT_NEAR(crossings[0].over_at_m, 0.2F, 0.02F);
 }
 
+TEST(RopeCrossings, OfARingAreThoseThatShow) {
+  std::vector<Estimate> ropes(2);
+  ropes[0].closed = true;
+  for (std::size_t i = 0; i < kNodes; ++i) {
+    const float turn = 6.2831853F * static_cast<float>(i) / kNodes;
+    ropes[0].nodes[i] = {0.1F * std::cos(turn), 0.1F * std::sin(turn), 0.5F};
+    const float along = -0.2F + 0.4F * static_cast<float>(i) / (kNodes - 1);
+    ropes[1].nodes[i] = {along, along / 90, 0.45F};  // once through the gap of the last node
+  }
+  std::vector<std::uint8_t> mask(640 * 480, 0);
+  std::fill_n(mask.begin(), 6400, std::uint8_t{255});
+  const Frame frame{640, 480, {600, 600, 320, 240}, {}, mask, {}};
+  const auto crossings = estimator::rope_crossings(ropes, frame);
+  ASSERT_EQ(crossings.size(), 2U);
+  for (const RopeCrossing& crossing : crossings) EXPECT_EQ(crossing.over, 1);
+}
+
 TEST(ToldApart, RisesFromDoubtAtATieToCertainty) {
   EXPECT_LT(estimator::told_apart(0), 0.2F);
   EXPECT_LT(estimator::told_apart(1), estimator::told_apart(2));
