@@ -152,7 +152,7 @@ py::dict dict_of(Ropes&& ropes, int width, int height) {
 py::array_t<float> array_of(const std::vector<Point3>& points) {
   static_assert(sizeof(Point3) == 3 * sizeof(float));
   const auto count = static_cast<py::ssize_t>(points.size());
-  return {{count, py::ssize_t{3}}, &points.data()->x};
+  return py::array_t<float>({count, py::ssize_t{3}}, &points.data()->x);
 }
 
 py::dict dict_of(const DeviceSurvey& survey) {

@@ -22,7 +22,7 @@ template <>
 struct Kind<flowdlo_config> {
   static constexpr const char* kName = "flowdlo_config";
   static constexpr std::size_t kFirstBytes =
-      offsetof(flowdlo_config, reserved) + sizeof(flowdlo_config::reserved);
+      offsetof(flowdlo_config, budget_ms) + sizeof(flowdlo_config::budget_ms);
   static_assert(sizeof(flowdlo_config) == kFirstBytes);
 };
 
@@ -38,7 +38,7 @@ template <>
 struct Kind<flowdlo_estimate> {
   static constexpr const char* kName = "flowdlo_estimate";
   static constexpr std::size_t kFirstBytes =
-      offsetof(flowdlo_estimate, total_ms) + sizeof(flowdlo_estimate::total_ms);
+      offsetof(flowdlo_estimate, closed) + sizeof(flowdlo_estimate::closed);
   static_assert(sizeof(flowdlo_estimate) == kFirstBytes);
 };
 
