@@ -261,10 +261,42 @@ TEST(CalibratedGate, AGuestIsTakenByItsScoreAndWhatSpeaksForIt) {
   EXPECT_EQ(choose_calibrated(candidates, by_recall(), beside).chosen, 0U);
 }
 
+TEST(CalibratedGate, FramesThatAStrandFieldWasAskedAboutHaveWeightsOfTheirOwn) {
+  std::vector candidates{straight(0), straight(0.05F, 1)};
+  EXPECT_EQ(&fitted_weights(candidates), &fitted_to_mask());
+  for (Candidate& candidate : candidates) candidate.axes.known = true;
+  EXPECT_EQ(&fitted_weights(candidates), &fitted_to_field());
+}
+
+TEST(CalibratedGate, WithoutAStrandFieldNothingOfItIsWeighed) {
+  constexpr std::size_t kOfField = 14;  // features of a hypothesis
+  const std::vector candidates{straight(0), straight(0.05F, 1)};
+  const auto row = hypothesis_features(candidates, 1);
+  for (std::size_t i = kHypothesisFeatures - kOfField; i < kHypothesisFeatures; ++i) {
+    EXPECT_EQ(row[i], 0) << i;
+  }
+}
+
+TEST(CalibratedGate, AnAxisThatIsNotFollowedCountsAgainstAHypothesis) {
+  std::vector candidates{straight(0), straight(0.05F, 1)};
+  for (Candidate& candidate : candidates) {
+    candidate.axes = {.known = true, .followed = 1, .backed = 1, .tips_met = 1};
+    candidate.readings = 4;
+    candidate.seen_odds = 0.5F;
+  }
+  const auto lead = [&] {
+    return hypothesis_score(candidates, 1, fitted_to_field()) -
+           hypothesis_score(candidates, 0, fitted_to_field());
+  };
+  const double alike = lead();
+  candidates[0].axes.followed = 0.6F;
+  EXPECT_GT(lead(), alike);
+}
+
 TEST(CalibratedGate, AGuestThatIsNotTakenIsNotCounted) {
   const std::vector candidates{straight(0), with_recall(straight(0.05F, 1), 0.8F)};
   const Choice alone = choose_calibrated(candidates);
-  const Choice visited = choose_calibrated(candidates, fitted_weights(),
+  const Choice visited = choose_calibrated(candidates, fitted_to_mask(),
                                            {.guest = straight(0.0001F, 2), .guest_log_prior = -99});
   EXPECT_EQ(visited.chosen, alone.chosen);
   EXPECT_EQ(visited.probability, alone.probability);
