@@ -199,7 +199,7 @@ PYBIND11_MODULE(_core, module) {
       .def(py::init<const py::dict&>())
       .def("estimate", &Handle::estimate, py::arg("depth_m").noconvert(),
            py::arg("mask").noconvert(), py::arg("intrinsics"), py::arg("color_bgr").noconvert(),
-           py::arg("hints"))
+           py::arg("hints") = py::dict())
       .def("estimate_ropes", &Handle::estimate_ropes, py::arg("depth_m").noconvert(),
            py::arg("mask").noconvert(), py::arg("intrinsics"), py::arg("color_bgr").noconvert(),
            py::arg("instances").noconvert())

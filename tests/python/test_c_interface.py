@@ -23,6 +23,7 @@ class Config(ctypes.Structure):
         *((name, ctypes.c_int32) for name in "quality euler_steps draws prior gate field".split()),
         *((name, ctypes.c_int32) for name in "threads max_width max_height timeout".split()),
         *((name, ctypes.c_int32) for name in ("validation", "reserved")),
+        ("budget_ms", ctypes.c_double),
     ]
 
 
@@ -59,6 +60,8 @@ class Estimate(ctypes.Structure):
         *((name, ctypes.c_int32) for name in ("alternatives", "accepted_draws")),
         ("one_rope", ctypes.c_float * 8),
         ("milliseconds", ctypes.c_double * 8),
+        ("left_out", ctypes.c_uint32),
+        ("closed", ctypes.c_int32),
     ]
 
 
