@@ -46,6 +46,10 @@ class Cost {
 
   void saw(double ms, double units);
 
+  /// It was not done: less is expected the next time, so that one slow frame does not keep it out
+  /// for good.
+  void left_out();
+
  private:
   double unit_ms_;
 };

@@ -257,7 +257,11 @@ Result<Estimate> Estimator::Impl::estimate(const Frame& frame, const Hints& hint
     timings.device_ms = sampler.stage_times_ms();
   }
   stage.lap(timings.model_ms);
-  if (sampled) model_cost.saw(timings.mask_field_ms + timings.model_ms, 1);
+  if (sampled) {
+    model_cost.saw(timings.mask_field_ms + timings.model_ms, 1);
+  } else {
+    model_cost.left_out();
+  }
   estimator::SecondLook look = rereading.finish();
   timings.readings_ms = rereading.duration_ms();
   stage.skip();  // readings_ms has it

@@ -211,11 +211,12 @@ void Rereading::learn_costs() const {
   if (limits_.budget == nullptr) return;
   const std::size_t fields = field_ != nullptr ? 1 : 0;
   for (std::size_t i = 0; i < reads_.size(); ++i) {
-    if (reads_[i].left_out) continue;
-    if (i < fields) {
-      limits_.costs->of_field().saw(reads_[i].took_ms(), rope_px_);
+    const bool of_field = i < fields;
+    Cost& cost = of_field ? limits_.costs->of_field() : limits_.costs->of(kinds_[i - fields]);
+    if (reads_[i].left_out) {
+      cost.left_out();
     } else {
-      limits_.costs->of(kinds_[i - fields]).saw(reads_[i].took_ms(), limits_.first_ms);
+      cost.saw(reads_[i].took_ms(), of_field ? rope_px_ : limits_.first_ms);
     }
   }
 }

@@ -59,6 +59,14 @@ TEST(Cost, RisesAtOnceAndFallsSlowly) {
   EXPECT_NEAR(cost.of(1), 9, 1e-9);
 }
 
+TEST(Cost, OfWhatIsLeftOutIsForgottenInTime) {
+  estimator::Cost cost(1);
+  cost.saw(1000, 1);  // one slow frame
+  for (int frame = 0; frame < 200; ++frame) cost.left_out();
+  EXPECT_LT(cost.of(1), 20);
+  EXPECT_GT(cost.of(1), 0);
+}
+
 TEST(Budget, WithoutTimeAClearFrameIsThePriorOfItsOnlyReading) {
   const testing::WaveFrame wave;
   const Estimate estimate = estimated(within(kNoTime_ms), wave.frame());
