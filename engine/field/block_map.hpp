@@ -13,7 +13,7 @@ inline constexpr int kBlockSide = 16;  ///< places a side of a block, see ops::C
 inline constexpr int kBlock_px = kFold * kBlockSide;
 
 /// Blocks that hold a pixel within this of the mask are computed.
-inline constexpr int kNear_px = 24;
+inline constexpr int kNear_px = 12;
 
 /// Which blocks: row by row.
 struct BlockMap {

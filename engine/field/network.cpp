@@ -14,7 +14,7 @@ constexpr int kMapColumns = 12;     // of ops::Convolution's map
 constexpr int kPlaces = kBlockSide * kBlockSide;
 constexpr int kPixelsOfPlace = kFold * kFold;
 // Layers look 2 + 4 + 12 + 4 + 2 places far all together: what lies two blocks away changes
-// nothing.
+// rounding alone.
 constexpr int kHalo = 2;
 
 static_assert(kPixelsOfPlace * kPlanes <= weights::kFieldInputs);

@@ -1,107 +1,105 @@
-// Convolutions of one block: its places and those around it are gathered once, so that the inputs
-// of a row of taps lie side by side, and every sum is a product of the kind that linear.cpp makes.
-#include "reference/isa.hpp"
-#include "reference/tile.hpp"
+#include "reference/convolution.hpp"
 
-namespace flowdlo::reference::FLOWDLO_ISA {
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cstddef>
+#include <vector>
+
+namespace flowdlo::reference {
 namespace {
 
-constexpr int kOwn = 4;  // of the nine blocks around
+constexpr int kPoints = 6;  // each way
+constexpr int kTaps = 3;    // likewise
+static_assert(kPoints * kPoints == kTurned);
 
-FLOWDLO_INLINE std::ptrdiff_t floats(int rows, int columns) {
-  return static_cast<std::ptrdiff_t>(rows) * columns;
-}
+// Three taps as a polynomial's values at 0, 1, -1, 2, -2 and infinity, each over what Lagrange's
+// interpolation divides by.
+constexpr std::array<std::array<double, kTaps>, kPoints> kTurn{{{1.0 / 4, 0, 0},
+                                                                {-1.0 / 6, -1.0 / 6, -1.0 / 6},
+                                                                {-1.0 / 6, 1.0 / 6, -1.0 / 6},
+                                                                {1.0 / 24, 1.0 / 12, 1.0 / 6},
+                                                                {1.0 / 24, -1.0 / 12, 1.0 / 6},
+                                                                {0, 0, 1}}};
 
-FLOWDLO_INLINE void copy(const float* from, std::ptrdiff_t count, float* to) {
-  __builtin_memcpy(to, from, static_cast<std::size_t>(count) * sizeof(float));
-}
-
-FLOWDLO_INLINE void clear(std::ptrdiff_t count, float* to) {
-  __builtin_memset(to, 0, static_cast<std::size_t>(count) * sizeof(float));
-}
-
-/// [side + 2, side + 2, in]: the block with a place around it.
-void gather(const ConvolutionBlock& block, float* to) {
-  const int side = block.side;
-  for (int v = -1; v <= side; ++v) {
-    const int down = v < 0 ? 0 : v < side ? 1 : 2;
-    const int row = v < 0 ? side - 1 : v < side ? v : 0;
-    for (int across = 0; across < 3; ++across) {
-      const int count = across == 1 ? side : 1;
-      const int column = across == 0 ? side - 1 : 0;
-      const auto other = static_cast<int>(block.around[3 * down + across]);
-      if (other < 0) {
-        clear(floats(count, block.in), to);
-      } else {
-        copy(block.x + floats((other * side + row) * side + column, block.in),
-             floats(count, block.in), to);
+// [kTurned, out, in] of weight [out, 9, in].
+std::vector<float> turned(std::span<const float> weight, std::size_t out, std::size_t in) {
+  std::vector<float> result(kTurned * out * in);
+  for (std::size_t row = 0; row < out; ++row) {
+    for (std::size_t column = 0; column < in; ++column) {
+      for (std::size_t i = 0; i < kTurned; ++i) {
+        const auto& down = kTurn[i / kPoints];
+        const auto& across = kTurn[i % kPoints];
+        double sum = 0;
+        for (std::size_t tap = 0; tap < kTaps * kTaps; ++tap) {
+          sum += down[tap / kTaps] * across[tap % kTaps] *
+                 static_cast<double>(weight[(row * kTaps * kTaps + tap) * in + column]);
+        }
+        result[(i * out + row) * in + column] = static_cast<float>(sum);
       }
-      to += floats(count, block.in);
     }
   }
+  return result;
 }
 
-/// kRows places that lie side by side, one panel of channels.
-template <int kRows>
-FLOWDLO_INLINE void convolve(const ConvolutionBlock& block, const float* x, std::ptrdiff_t line,
-                             int lines, int depth, const float* panel, int column, float* y) {
-  Tile<kRows> tile;
-  for (int i = 0; i < kTileLanes; ++i) {
-    const int first = column + i * kLanes;
-    const Lanes bias = first < block.out ? load(block.bias + first) : Lanes{};
-    for (int r = 0; r < kRows; ++r) tile.sums[r][i] = bias;
-  }
-  for (int k = 0; k < lines; ++k) {
-    accumulate(tile, x + k * line, block.in, 1, panel + floats(k * depth, kPanel), kPanel, depth);
-  }
-  for (int r = 0; r < kRows; ++r) {
-    for (int i = 0; i < kTileLanes; ++i) {
-      const int first = column + i * kLanes;
-      if (first >= block.out) continue;
-      const Lanes sum = tile.sums[r][i];
-      store(y + floats(r, block.out) + first, block.relu ? larger(sum, Lanes{}) : sum);
-    }
-  }
-}
+// Columns of the panels of a weight with so many rows: whole ones of every instruction set.
+int whole_panels(int out) { return (out + kMostPanel - 1) / kMostPanel * kMostPanel; }
 
-/// A row of places. Eight or four at a time: as many as the registers hold, and sides are
-/// multiples of them.
-FLOWDLO_INLINE void convolve_row(const ConvolutionBlock& block, const float* x, std::ptrdiff_t line,
-                                 int lines, int depth, const float* panel, int column, float* y) {
-  constexpr int kMost = kTileRows >= 8 ? 8 : 4;
-  int at = 0;
-  for (; at + kMost <= block.side; at += kMost) {
-    convolve<kMost>(block, x + floats(at, block.in), line, lines, depth, panel, column,
-                    y + floats(at, block.out));
-  }
-  for (; at + 4 <= block.side; at += 4) {
-    convolve<4>(block, x + floats(at, block.in), line, lines, depth, panel, column,
-                y + floats(at, block.out));
-  }
+std::ptrdiff_t floats(int rows, int columns) {
+  return static_cast<std::ptrdiff_t>(rows) * static_cast<std::ptrdiff_t>(columns);
 }
 
 }  // namespace
 
-void convolution(const ConvolutionBlock& block) {
-  alignas(64) float memory[kMostAround];  // NOLINT: a library's array is not of one instruction set
-  const int side = block.side;
-  const bool square = block.taps == 9;
-  const auto own = static_cast<int>(block.around[kOwn]);
-  const float* x = block.x + floats(own * side * side, block.in);
-  if (square) {
-    gather(block, memory);
-    x = memory;
+AlignedFloats convolution_weight(const Kernels& kernels, int out, int taps, int in,
+                                 std::span<const float> weight) {
+  const std::ptrdiff_t panels = floats(whole_panels(out), in);
+  if (taps == 1) {
+    AlignedFloats result(static_cast<std::size_t>(panels));
+    kernels.pack(weight.data(), out, in, result.data());
+    return result;
   }
-  const int width = square ? side + 2 : side;  // places from one row to the next
-  const int lines = square ? 3 : 1;
-  const int depth = lines * block.in;
-  for (int column = 0; column < block.out; column += kPanel) {
-    const float* const panel = block.panels + floats(column, block.taps * block.in);
-    for (int row = 0; row < side; ++row) {
-      convolve_row(block, x + floats(row * width, block.in), floats(width, block.in), lines, depth,
-                   panel, column, block.y + floats(row * side, block.out));
-    }
+  AlignedFloats result(static_cast<std::size_t>(kTurned * panels));
+  const auto matrices = turned(weight, static_cast<std::size_t>(out), static_cast<std::size_t>(in));
+  for (int i = 0; i < kTurned; ++i) {
+    kernels.pack(matrices.data() + i * floats(out, in), out, in, result.data() + i * panels);
   }
+  return result;
 }
 
-}  // namespace flowdlo::reference::FLOWDLO_ISA
+int blocks_together(const ops::Convolution& op) {
+  if (op.layer.taps == 1) return 1;
+  const int tiles = op.side * op.side / (kTileSide * kTileSide);  // of a block
+  assert(tiles * op.layer.in <= kMostTileInputs);
+  return std::min(kMostTiles, kMostTileInputs / op.layer.in) / tiles;
+}
+
+void convolve(const Kernels& kernels, const ops::Convolution& op, const ConvolutionMemory& memory,
+              int first, int blocks) {
+  const int places = op.side * op.side;
+  if (op.layer.taps == 1) {
+    kernels.point_convolution({.x = memory.x + floats(first * places, op.layer.in),
+                               .panels = memory.weight,
+                               .bias = memory.bias,
+                               .y = memory.y + floats(first * places, op.layer.out),
+                               .rows = blocks * places,
+                               .in = op.layer.in,
+                               .out = op.layer.out,
+                               .relu = op.relu});
+    return;
+  }
+  kernels.square_convolution({.x = memory.x,
+                              .map = memory.map + floats(first, op.map.columns),
+                              .map_columns = op.map.columns,
+                              .blocks = blocks,
+                              .panels = memory.weight,
+                              .bias = memory.bias,
+                              .y = memory.y,
+                              .side = op.side,
+                              .in = op.layer.in,
+                              .out = op.layer.out,
+                              .columns = whole_panels(op.layer.out),
+                              .relu = op.relu});
+}
+
+}  // namespace flowdlo::reference

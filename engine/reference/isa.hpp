@@ -14,6 +14,7 @@ void linear(const LinearBlock& block);
 void narrow(const NarrowBlock& block);
 void layer_norm(const LayerNormBlock& block);
 void attention(const AttentionBlock& block);
-void convolution(const ConvolutionBlock& block);
+void point_convolution(const PointRows& rows);
+void square_convolution(const SquareBlocks& blocks);
 
 }  // namespace flowdlo::reference::FLOWDLO_ISA

@@ -4,15 +4,17 @@
 
 namespace flowdlo::reference {
 
-#define FLOWDLO_ISA_KERNELS(name)                                                              \
-  namespace name {                                                                             \
-  void pack(const float* weight, int out, int in, float* panels);                              \
-  void linear(const LinearBlock& block);                                                       \
-  void narrow(const NarrowBlock& block);                                                       \
-  void layer_norm(const LayerNormBlock& block);                                                \
-  void attention(const AttentionBlock& block);                                                 \
-  void convolution(const ConvolutionBlock& block);                                             \
-  constexpr Kernels kKernels{#name, pack, linear, narrow, layer_norm, attention, convolution}; \
+#define FLOWDLO_ISA_KERNELS(name)                                                                 \
+  namespace name {                                                                                \
+  void pack(const float* weight, int out, int in, float* panels);                                 \
+  void linear(const LinearBlock& block);                                                          \
+  void narrow(const NarrowBlock& block);                                                          \
+  void layer_norm(const LayerNormBlock& block);                                                   \
+  void attention(const AttentionBlock& block);                                                    \
+  void point_convolution(const PointRows& rows);                                                  \
+  void square_convolution(const SquareBlocks& blocks);                                            \
+  constexpr Kernels kKernels{                                                                     \
+      #name, pack, linear, narrow, layer_norm, attention, point_convolution, square_convolution}; \
   }
 
 FLOWDLO_ISA_KERNELS(baseline)

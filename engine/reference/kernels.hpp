@@ -1,8 +1,9 @@
 // Kernels: the dense operations on one block of rows, once for each instruction set.
 //
-// linear.cpp, narrow.cpp, layer_norm.cpp, attention.cpp and convolution.cpp are compiled several
-// times, each time into the namespace named by FLOWDLO_ISA, so that the linker cannot mix code of
-// two instruction sets. They take plain pointers and use no library for the same reason.
+// linear.cpp, narrow.cpp, layer_norm.cpp, attention.cpp, point_convolution.cpp and
+// square_convolution.cpp are compiled several times, each time into the namespace named by
+// FLOWDLO_ISA, so that the linker cannot mix code of two instruction sets. They take plain pointers
+// and use no library for the same reason.
 #pragma once
 
 #include <cstddef>
@@ -73,34 +74,54 @@ struct AttentionBlock {
 
 inline constexpr int kMaxKeys = 256;
 
-/// One block of an image; see ops::Convolution.
-struct ConvolutionBlock {
-  const float* x;       ///< the whole tensor
-  const float* around;  ///< [9] of the map: the blocks around this one
-  const float* panels;  ///< the weight [out, taps * in] as pack() lays it out
+/// Places of an image, each for itself; see ops::Convolution with one tap.
+struct PointRows {
+  const float* x;       ///< [rows, in]
+  const float* panels;  ///< the weight [out, in] as pack() lays it out
   const float* bias;    ///< [out]
-  float* y;             ///< the block's first row
-  int side;
-  int taps;
+  float* y;             ///< [rows, out]
+  int rows;             ///< even
   int in;
   int out;
   bool relu;
 };
 
-/// Floats of a block and the places around it, at most.
-inline constexpr int kMostAround = 16384;
+inline constexpr int kMostPanel = 64;  ///< columns of a panel of any instruction set, at most
+
+inline constexpr int kTurned = 36;     ///< matrices that stand for a weight of 3 x 3 taps
+inline constexpr int kTileSide = 4;    ///< places of a result that are made together, each way
+inline constexpr int kMostTiles = 16;  ///< of one call, and so many times their inputs
+inline constexpr int kMostTileInputs = 768;
+
+/// Consecutive blocks of an image, all in use; see ops::Convolution with nine taps. Their tiles are
+/// at most kMostTiles, times `in` at most kMostTileInputs.
+struct SquareBlocks {
+  const float* x;    ///< the whole tensor
+  const float* map;  ///< the first block's row
+  int map_columns;
+  int blocks;
+  const float* panels;  ///< kTurned matrices, each [out, in] as pack() lays it out, `columns` wide
+  const float* bias;    ///< [out]
+  float* y;             ///< the whole tensor
+  int side;
+  int in;
+  int out;
+  int columns;
+  bool relu;
+};
 
 /// The entries of one instruction set.
 struct Kernels {
   const char* isa;
-  /// Lays a weight [out, in] out for `linear` and `convolution`, in as many panels as hold `out`
+  /// Lays a weight [out, in] out for `linear` and convolutions, in as many panels as hold `out`
   /// columns.
   void (*pack)(const float* weight, int out, int in, float* panels);
   void (*linear)(const LinearBlock&);
   void (*narrow)(const NarrowBlock&);
   void (*layer_norm)(const LayerNormBlock&);
   void (*attention)(const AttentionBlock&);
-  void (*convolution)(const ConvolutionBlock&);
+  void (*point_convolution)(const PointRows&);
+  void (*square_convolution)(const SquareBlocks&);
 };
 
 /// All that both this build and this processor have, the widest first.

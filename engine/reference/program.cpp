@@ -6,6 +6,7 @@
 
 #include "reference/aligned_floats.hpp"
 #include "reference/block_image.hpp"
+#include "reference/convolution.hpp"
 #include "reference/farthest_points.hpp"
 #include "reference/flow_step.hpp"
 #include "reference/kernels.hpp"
@@ -19,6 +20,7 @@ namespace {
 constexpr int kBlockRows = ops::kRowsPerDraw;
 constexpr int kPartColumns = 64;  // of a linear layer's result
 constexpr int kRowParts = 4;      // of a block's rows, where an operation goes row by row
+constexpr int kOwnBlock = 4;      // column of an image's map
 constexpr int kMostNarrow = 8;    // inputs of a layer that ops::Narrow takes
 
 struct Layer {
@@ -121,19 +123,23 @@ class Program final : public ops::Program {
     if (!addend) return {};
     return {data(addend->table), addend->period, addend->offset};
   }
-  /// A step on the blocks of an image that are in use: work(block, the blocks around it).
+  /// A step on the blocks of an image that are in use: work(the first, how many), at most
+  /// `together` of them at once.
   void add_image(ops::Tensor map, ops::Tensor writes, std::vector<std::uint32_t> reads_beyond,
-                 std::function<void(int, const float*)> work) {
+                 int together, std::function<void(int, int)> work) {
     reads_beyond.push_back(map.id);
-    schedule_.add({.blocks = map.rows,
-                   .work =
-                       [this, map, work = std::move(work)](const Piece& piece) {
-                         for (int block = piece.block; block < piece.block + piece.blocks;
-                              ++block) {
-                           const float* const around = data(map) + floats(block, map.columns);
-                           if (around[4] >= 0) work(block, around);
-                         }
-                       },
+    const auto groups = [this, map, together, work = std::move(work)](const Piece& piece) {
+      for (int group = piece.block; group < piece.block + piece.blocks; ++group) {
+        const int first = group * together;
+        int blocks = std::min(together, map.rows - first);
+        while (blocks > 0 && data(map)[floats(first + blocks - 1, map.columns) + kOwnBlock] < 0) {
+          --blocks;  // those that are not in use come last
+        }
+        if (blocks > 0) work(first, blocks);
+      }
+    };
+    schedule_.add({.blocks = (map.rows + together - 1) / together,
+                   .work = groups,
                    .reads_beyond = std::move(reads_beyond),
                    .writes = writes.id});
   }
@@ -175,11 +181,8 @@ ops::LinearLayer Program::layer(std::string_view, int out, int in, std::span<con
 ops::ConvolutionLayer Program::convolution(std::string_view, int out, int taps, int in,
                                            std::span<const float> weight,
                                            std::span<const float> bias) {
-  const int columns = (out + kPartColumns - 1) / kPartColumns * kPartColumns;  // whole panels
-  Layer layer{AlignedFloats(static_cast<std::size_t>(floats(columns, taps * in))),
-              AlignedFloats(bias.size())};
+  Layer layer{convolution_weight(kernels_, out, taps, in, weight), AlignedFloats(bias.size())};
   std::copy(bias.begin(), bias.end(), layer.bias.data());
-  kernels_.pack(weight.data(), out, taps * in, layer.weight.data());
   layers_.push_back(std::move(layer));
   return {static_cast<std::uint32_t>(layers_.size() - 1), in, out, taps};
 }
@@ -342,26 +345,19 @@ void Program::record(const ops::FlowStep& op) {
 }
 
 void Program::record(const ops::Convolution& op) {
-  assert((op.side + 2) * (op.side + 2) * op.layer.in <= kMostAround);
   std::vector<std::uint32_t> beyond;
   if (op.layer.taps > 1) beyond.push_back(op.x.id);
-  add_image(op.map, op.y, std::move(beyond), [this, op](int block, const float* around) {
-    const Layer& layer = layers_[op.layer.id];
-    kernels_.convolution({.x = data(op.x),
-                          .around = around,
-                          .panels = layer.weight.data(),
-                          .bias = layer.bias.data(),
-                          .y = data(op.y) + floats(block * op.side * op.side, op.layer.out),
-                          .side = op.side,
-                          .taps = op.layer.taps,
-                          .in = op.layer.in,
-                          .out = op.layer.out,
-                          .relu = op.relu});
-  });
+  add_image(
+      op.map, op.y, std::move(beyond), blocks_together(op), [this, op](int first, int blocks) {
+        const Layer& layer = layers_[op.layer.id];
+        convolve(kernels_, op,
+                 {data(op.x), data(op.map), layer.weight.data(), layer.bias.data(), data(op.y)},
+                 first, blocks);
+      });
 }
 
 void Program::record(const ops::MaxPool& op) {
-  add_image(op.map, op.y, {}, [this, op](int block, const float*) {
+  add_image(op.map, op.y, {}, 1, [this, op](int block, int) {
     const int places = op.side * op.side;
     max_pool(data(op.x) + floats(block * places, op.x.columns), op.side, op.x.columns,
              data(op.y) + floats(block * places / 4, op.x.columns));
@@ -369,7 +365,7 @@ void Program::record(const ops::MaxPool& op) {
 }
 
 void Program::record(const ops::AddUpsampled& op) {
-  add_image(op.map, op.y, {}, [this, op](int block, const float*) {
+  add_image(op.map, op.y, {}, 1, [this, op](int block, int) {
     const int places = op.side * op.side;
     add_upsampled(data(op.x) + floats(block * places / 4, op.x.columns), op.side, op.x.columns,
                   data(op.y) + floats(block * places, op.x.columns));

@@ -9,10 +9,10 @@ namespace {
 using testing::Each;
 using testing::ElementsAre;
 
-/// A mask of one pixel.
-cv::Mat dot(int width, int height, int u, int v) {
+/// A mask of a spot of 12 x 12 px around the corner of four pixels.
+cv::Mat spot(int width, int height, int u, int v) {
   cv::Mat mask = cv::Mat::zeros(height, width, CV_32F);
-  mask.at<float>(v, u) = 1;
+  mask(cv::Rect(u - 6, v - 6, 12, 12)).setTo(1);
   return mask;
 }
 
@@ -20,8 +20,8 @@ TEST(BlockMap, EmptyMaskNeedsNoBlock) {
   EXPECT_TRUE(blocks_near(cv::Mat::zeros(100, 200, CV_32F)).blocks.empty());
 }
 
-TEST(BlockMap, BlocksWithinThreeWidthsOfTheMaskAreComputed) {
-  const BlockMap map = blocks_near(dot(320, 96, 48, 48));  // the middle of a block
+TEST(BlockMap, BlocksWithinAWidthAndAHalfOfTheMaskAreComputed) {
+  const BlockMap map = blocks_near(spot(320, 96, 48, 48));  // the middle of a block
   EXPECT_EQ(map.columns, 10);
   EXPECT_EQ(map.rows, 3);
   EXPECT_THAT(map.blocks, ElementsAre(cv::Point(0, 0), cv::Point(1, 0), cv::Point(2, 0),
@@ -30,18 +30,18 @@ TEST(BlockMap, BlocksWithinThreeWidthsOfTheMaskAreComputed) {
 }
 
 TEST(BlockMap, HalfAPixelIsNoMask) {
-  EXPECT_TRUE(blocks_near(0.5 * dot(320, 96, 48, 48)).blocks.empty());
+  EXPECT_TRUE(blocks_near(0.5 * spot(320, 96, 48, 48)).blocks.empty());
 }
 
 TEST(BlockMap, KnowsWhatLiesAround) {
-  const BlockMap map = blocks_near(dot(320, 96, 48, 48));
+  const BlockMap map = blocks_near(spot(320, 96, 48, 48));
   EXPECT_THAT(map.around(4), ElementsAre(0, 1, 2, 3, 4, 5, 6, 7, 8));
   EXPECT_THAT(map.around(0), ElementsAre(-1, -1, -1, -1, 0, 1, -1, 3, 4));
   EXPECT_THAT(map.around(5), ElementsAre(1, 2, -1, 4, 5, -1, 7, 8, -1));
 }
 
 TEST(BlockMap, CutKeepsPlacesAndNumbersAnew) {
-  const BlockMap map = cut(blocks_near(dot(320, 96, 48, 48)), {1, 0, 2, 2});
+  const BlockMap map = cut(blocks_near(spot(320, 96, 48, 48)), {1, 0, 2, 2});
   EXPECT_THAT(map.blocks,
               ElementsAre(cv::Point(1, 0), cv::Point(2, 0), cv::Point(1, 1), cv::Point(2, 1)));
   EXPECT_THAT(map.around(3), ElementsAre(0, 1, -1, 2, 3, -1, -1, -1, -1));
