@@ -12,7 +12,7 @@ inline constexpr int kFold = 2;        ///< pixels of the region a place, in u a
 inline constexpr int kBlockSide = 16;  ///< places a side of a block, see ops::Convolution
 inline constexpr int kBlock_px = kFold * kBlockSide;
 
-/// Blocks that hold a pixel within this of the mask are computed.
+/// Blocks that hold a pixel within this of the mask are computed: a width and a half.
 inline constexpr int kNear_px = 12;
 
 /// Which blocks: row by row.
@@ -25,6 +25,11 @@ struct BlockMap {
   /// [9] the blocks around block `i`, itself in the middle, row by row; -1: none.
   [[nodiscard]] std::array<int, 9> around(std::size_t i) const;
 };
+
+/// Where a block lies in the region; blocks at its right and lower end may reach beyond it.
+[[nodiscard]] inline cv::Rect pixels_of(const cv::Point& block) {
+  return {block.x * kBlock_px, block.y * kBlock_px, kBlock_px, kBlock_px};
+}
 
 /// `mask`: [height, width] f32, the rope's share of each pixel of a region.
 [[nodiscard]] BlockMap blocks_near(const cv::Mat& mask);

@@ -215,34 +215,63 @@ Sight look(const Frame& frame, const Region& region) {
   return sight;
 }
 
-cv::Mat input_of(const Sight& sight) {
-  const cv::Size size = sight.mask.size();
-  cv::Mat input = cv::Mat::zeros(size, CV_32FC(kPlanes));
-  const bool has_color = !sight.color.empty();
-  const Palette palette = has_color ? palette_of(sight) : Palette{};
-  const cv::Mat around = rope_depth(sight);
-  for (int v = 0; v < size.height; ++v) {
-    auto* to = input.ptr<float>(v);
-    const auto* inside = sight.inside.ptr<float>(v);
-    const auto* mask = sight.mask.ptr<float>(v);
-    const auto* depth = sight.depth_m.ptr<float>(v);
-    for (int u = 0; u < size.width; ++u, to += kPlanes) {
-      if (inside[u] <= kHalf) continue;
-      if (has_color) {
-        const auto& color = sight.color.at<cv::Vec3f>(v, u);
-        for (int k = 0; k < 3; ++k) {
-          to[kBlue + k] = within((color[k] - palette.middle[k]) / palette.spread);
+namespace {
+
+/// Fills the planes of some pixels at a time.
+class Planes {
+ public:
+  explicit Planes(const Sight& sight)
+      : sight_(sight),
+        palette_(sight.color.empty() ? Palette{} : palette_of(sight)),
+        around_(rope_depth(sight)) {}
+
+  void fill(const cv::Rect& part, cv::Mat& input) const {
+    input(part).setTo(0);
+    const bool has_color = !sight_.color.empty();
+    for (int v = part.y; v < part.y + part.height; ++v) {
+      auto* to = input.ptr<float>(v) + part.x * kPlanes;
+      const auto* inside = sight_.inside.ptr<float>(v);
+      const auto* mask = sight_.mask.ptr<float>(v);
+      const auto* depth = sight_.depth_m.ptr<float>(v);
+      for (int u = part.x; u < part.x + part.width; ++u, to += kPlanes) {
+        if (inside[u] <= kHalf) continue;
+        if (has_color) {
+          const auto& color = sight_.color.at<cv::Vec3f>(v, u);
+          for (int k = 0; k < 3; ++k) {
+            to[kBlue + k] = within((color[k] - palette_.middle[k]) / palette_.spread);
+          }
+          to[kHasColor] = 1;
         }
-        to[kHasColor] = 1;
+        if (depth[u] > 0 && !around_.empty()) {
+          const float rope_m = around_.at<float>(v, u);
+          const float width_m = kRope_px * rope_m / sight_.focal_px;
+          to[kDepth] = within((depth[u] - rope_m) / (2 * width_m));
+          to[kHasDepth] = 1;
+        }
+        to[kMask] = mask[u];
       }
-      if (depth[u] > 0 && !around.empty()) {
-        const float rope_m = around.at<float>(v, u);
-        const float width_m = kRope_px * rope_m / sight.focal_px;
-        to[kDepth] = within((depth[u] - rope_m) / (2 * width_m));
-        to[kHasDepth] = 1;
-      }
-      to[kMask] = mask[u];
     }
+  }
+
+ private:
+  const Sight& sight_;
+  Palette palette_;
+  cv::Mat around_;
+};
+
+}  // namespace
+
+cv::Mat input_of(const Sight& sight) {
+  cv::Mat input(sight.mask.size(), CV_32FC(kPlanes));
+  Planes(sight).fill(cv::Rect({0, 0}, input.size()), input);
+  return input;
+}
+
+cv::Mat input_of(const Sight& sight, const BlockMap& blocks) {
+  cv::Mat input(sight.mask.size(), CV_32FC(kPlanes));
+  const Planes planes(sight);
+  for (const cv::Point& block : blocks.blocks) {
+    planes.fill(pixels_of(block) & cv::Rect({0, 0}, input.size()), input);
   }
   return input;
 }

@@ -3,6 +3,7 @@
 
 #include <opencv2/core.hpp>
 
+#include "field/block_map.hpp"
 #include "field/region.hpp"
 #include "flowdlo/frame.hpp"
 
@@ -35,5 +36,8 @@ enum Plane {
 /// [height, width, kPlanes] f32: the same for every rope, camera and distance as far as that can be
 /// had. Beyond the camera's image all planes are 0.
 [[nodiscard]] cv::Mat input_of(const Sight& sight);
+
+/// Of these blocks alone; what the other pixels hold is nobody's business.
+[[nodiscard]] cv::Mat input_of(const Sight& sight, const BlockMap& blocks);
 
 }  // namespace flowdlo::field

@@ -24,8 +24,8 @@ constexpr int kMostFits = 6;             // and then once more
 float seen_width(const cv::Mat& field) {
   std::vector<float> widths;
   for (int v = 0; v < field.rows; ++v) {
-    for (int u = 0; u < field.cols; ++u) {
-      const float* const at = field.ptr<float>(v) + u * kChannels;
+    const float* at = field.ptr<float>(v);
+    for (int u = 0; u < field.cols; ++u, at += kChannels) {
       if (at[kCentre] > kSure && at[kRope] > kSure) widths.push_back(at[kWidth]);
     }
   }
@@ -95,7 +95,7 @@ Result<StrandField> see(const Frame& frame, float rope_width_px, Network& networ
     auto view = view_of(frame, box, width_px);
     if (!view) return view.error();
     if (look > 0 && view->region.size.area() <= result.region.size.area()) break;
-    const cv::Mat input = input_of(view->sight);
+    const cv::Mat input = input_of(view->sight, view->blocks);
     view->sight = {};  // six images of the region's size
     auto seen = network.see(input, view->blocks);
     if (!seen) return seen.error();
