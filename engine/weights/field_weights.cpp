@@ -20,8 +20,12 @@ namespace flowdlo::weights {
 namespace {
 
 constexpr std::array kReadable{DType::kF32, DType::kF16};
-constexpr int kMostChannels = 1024;
 constexpr int kChannelStep = 16;
+// What ops::Convolution takes of blocks of 16, 8 and 4 places a side: (side + 2)^2 times as many
+// inputs are 16384 at most.
+constexpr int kMostFine = 48;
+constexpr int kMostMiddle = 160;
+constexpr int kMostCoarse = 448;
 
 using Fields = std::map<std::string, std::string>;
 
@@ -32,14 +36,14 @@ std::string text_of(const Fields& fields, const char* key, std::vector<std::stri
   return {};
 }
 
-int channels_of(const Fields& fields, const char* key, std::vector<std::string>& faults) {
+int channels_of(const Fields& fields, const char* key, int most, std::vector<std::string>& faults) {
   const std::string text = text_of(fields, key, faults);
   int value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   const bool whole = error == std::errc() && end == text.data() + text.size();
-  if (whole && value > 0 && value <= kMostChannels && value % kChannelStep == 0) return value;
+  if (whole && value > 0 && value <= most && value % kChannelStep == 0) return value;
   faults.push_back(fmt::format("metadata {}: expected a multiple of {} up to {}, got {}", key,
-                               kChannelStep, kMostChannels, in_quotes(text)));
+                               kChannelStep, most, in_quotes(text)));
   return kChannelStep;
 }
 
@@ -80,16 +84,21 @@ std::vector<Expected> field_manifest(const FieldSizes& sizes) {
 Result<FieldWeights> load_field(const std::filesystem::path& file) {
   const auto bytes = read_file(file);
   if (!bytes) return bytes.error();
+  return parse_field(bytes->view(), file);
+}
+
+Result<FieldWeights> parse_field(std::span<const std::uint8_t> bytes,
+                                 const std::filesystem::path& file) {
   std::vector<std::string> faults;
-  const auto parsed = parse_safetensors(bytes->view(), faults);
+  const auto parsed = parse_safetensors(bytes, faults);
   if (!faults.empty()) return bad_weights(file, faults);
   FieldWeights weights;
   weights.name = text_of(parsed.metadata, "name", faults);
   weights.training_data = text_of(parsed.metadata, "training_data", faults);
   weights.notes = text_of(parsed.metadata, "notes", faults);
-  weights.sizes = {channels_of(parsed.metadata, "fine", faults),
-                   channels_of(parsed.metadata, "middle", faults),
-                   channels_of(parsed.metadata, "coarse", faults)};
+  weights.sizes = {channels_of(parsed.metadata, "fine", kMostFine, faults),
+                   channels_of(parsed.metadata, "middle", kMostMiddle, faults),
+                   channels_of(parsed.metadata, "coarse", kMostCoarse, faults)};
   if (!faults.empty()) return bad_weights(file, faults);
   const auto manifest = field_manifest(weights.sizes);
   const auto matched = match(parsed.tensors, manifest, kReadable, faults);

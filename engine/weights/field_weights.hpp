@@ -1,7 +1,9 @@
 // FieldWeights: the network of room `field`, as a .safetensors file beside the velocity model's.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -16,7 +18,7 @@ namespace flowdlo::weights {
 inline constexpr int kFieldInputs = 32;
 inline constexpr int kFieldOutputs = 48;
 
-/// Channels inside the network; multiples of 16.
+/// Channels inside the network; multiples of 16, at most 48, 160 and 448.
 struct FieldSizes {
   int fine = 32;    ///< at half the region's size,
   int middle = 48;  ///< at a quarter,
@@ -42,6 +44,10 @@ struct FieldWeights {
 
 /// Fails with kIo or kBadWeights, listing every mismatch.
 [[nodiscard]] Result<FieldWeights> load_field(const std::filesystem::path& file);
+
+/// The same of bytes in memory; `file` is their name.
+[[nodiscard]] Result<FieldWeights> parse_field(std::span<const std::uint8_t> bytes,
+                                               const std::filesystem::path& file);
 
 /// As f16. Fails with kBadWeights where a value is too large for that, with kIo where the file
 /// cannot be written.

@@ -1,19 +1,18 @@
 // `estimate` on small frames, with the model that ships, on the CPU: an error, or an estimate that
 // keeps what estimate.hpp promises, with the same bits
 // when asked again. The first byte chooses the gate, and whether it is asked again.
-#include <cmath>
 #include <cstring>
 
 #include "drawn_frame.hpp"
+#include "estimate_promises.hpp"
 #include "flowdlo/estimator.hpp"
-#include "promise.hpp"
 #include "target.hpp"
 
 namespace {
 
-using flowdlo::Centerline;
 using flowdlo::Estimate;
 using flowdlo::Estimator;
+using flowdlo::fuzz::check;
 using flowdlo::fuzz::promise;
 
 constexpr int kMostSide_px = 48;
@@ -30,32 +29,6 @@ Estimator made(flowdlo::GateChoice gate, flowdlo::PriorChoice prior) {
                                       .max_height = kMostSide_px});
   promise(estimator.has_value(), "an estimator can be made");
   return *std::move(estimator);
-}
-
-bool unit(float value) { return value >= 0 && value <= 1; }
-
-bool finite(const Centerline& nodes) {
-  for (const auto& node : nodes) {
-    if (!std::isfinite(node.x) || !std::isfinite(node.y) || !std::isfinite(node.z)) return false;
-  }
-  return true;
-}
-
-void check(const Estimate& estimate) {
-  promise(finite(estimate.nodes), "64 finite nodes");
-  promise(unit(estimate.confidence), "the confidence is in [0, 1]");
-  promise(unit(estimate.mask_agreement) && unit(estimate.prior_mask_agreement),
-          "mask agreement is in [0, 1]");
-  for (const float sigma_m : estimate.sigma_m) {
-    promise(std::isfinite(sigma_m) && sigma_m >= 0, "every sigma is finite and not negative");
-  }
-  for (const auto support : estimate.support) promise(support <= 1, "support is 0 or 1");
-  for (const auto& other : estimate.alternatives) {
-    promise(finite(other.nodes), "alternatives have 64 finite nodes");
-    promise(std::isfinite(other.score), "alternatives have a finite score");
-  }
-  promise(estimate.draw >= -1 && estimate.draw < static_cast<int>(estimate.draws.size()),
-          "the draw is one of the draws");
 }
 
 bool same_bits(const Estimate& a, const Estimate& b) {

@@ -105,5 +105,18 @@ TEST_F(FieldWeightsTest, TensorsOfAnotherNetworkAreRefused) {
   EXPECT_FALSE(save_field(weights_, file()));
 }
 
+TEST_F(FieldWeightsTest, MoreChannelsThanKernelsTakeAreRefused) {
+  const std::vector<std::pair<FieldSizes, const char*>> wide{
+      {{64, 32, 48}, "metadata fine: expected a multiple of 16 up to 48, got \"64\""},
+      {{16, 176, 48}, "metadata middle: expected a multiple of 16 up to 160, got \"176\""},
+      {{16, 32, 464}, "metadata coarse: expected a multiple of 16 up to 448, got \"464\""}};
+  for (const auto& [sizes, message] : wide) {
+    ASSERT_TRUE(save_field(seeded_field(sizes, 9), file()));
+    EXPECT_THAT(fault(), HasSubstr(message));
+  }
+  ASSERT_TRUE(save_field(seeded_field({48, 160, 448}, 9), file()));
+  EXPECT_EQ(fault(), "");
+}
+
 }  // namespace
 }  // namespace flowdlo::weights
