@@ -167,6 +167,19 @@ cv::Mat rope_depth(const Sight& sight) {
   return fine(cv::Rect({kCell_px, kCell_px}, size));
 }
 
+/// Whether a picture shows anything: one of a single colour, as a camera's stream that never began
+/// is, does not.
+bool varies(const cv::Mat& bgr) {
+  const auto first = bgr.at<cv::Vec3b>(0, 0);
+  for (int v = 0; v < bgr.rows; ++v) {
+    const auto* row = bgr.ptr<cv::Vec3b>(v);
+    if (std::any_of(row, row + bgr.cols, [&](const cv::Vec3b& at) { return at != first; })) {
+      return true;
+    }
+  }
+  return false;
+}
+
 float within(float value) { return std::clamp(value, -kMost, kMost); }
 
 }  // namespace
@@ -208,9 +221,12 @@ Sight look(const Frame& frame, const Region& region) {
   }
   sight.inside = cv::Mat::ones(region.size, CV_32F);
   if (!frame.color_bgr.empty()) {
-    cv::Mat color;
-    part(CV_8UC3, frame.color_bgr.data()).convertTo(color, CV_32F, 1.0 / 255);
-    sight.color = resampled(color, region.size);
+    const cv::Mat given = part(CV_8UC3, frame.color_bgr.data());
+    if (varies(given)) {
+      cv::Mat color;
+      given.convertTo(color, CV_32F, 1.0 / 255);
+      sight.color = resampled(color, region.size);
+    }
   }
   return sight;
 }

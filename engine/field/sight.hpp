@@ -11,7 +11,7 @@ namespace flowdlo::field {
 
 /// Images of one size.
 struct Sight {
-  cv::Mat color;       ///< f32 x 3, BGR, 0 to 1; empty: none
+  cv::Mat color;       ///< f32 x 3, BGR, 0 to 1; empty: none, or one colour everywhere
   cv::Mat mask;        ///< f32, 0 to 1: share of the pixel that the mask covers
   cv::Mat depth_m;     ///< f32, 0: none
   cv::Mat inside;      ///< f32, 1 within the camera's image, 0 beyond

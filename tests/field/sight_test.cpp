@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -68,6 +69,28 @@ TEST(Sight, AGreyOrColorlessCameraLeavesTheColorsOut) {
     EXPECT_EQ(at(input, 40, kTableRow, plane), 0);
   }
   EXPECT_GT(at(input, 40, kTableRow, kDepth), 0);
+}
+
+TEST(Sight, APictureOfOneColorIsNone) {
+  Scene scene;
+  std::fill(scene.color.begin(), scene.color.end(), std::uint8_t{0});
+  EXPECT_EQ(at(scene.input(scene.frame()), 40, kTableRow, kHasColor), 0);
+  scene.color[0] = 1;  // one pixel's blue
+  EXPECT_EQ(at(scene.input(scene.frame()), 40, kTableRow, kHasColor), 1);
+}
+
+TEST(Sight, BlocksOnTheirOwnAreThoseOfTheWhole) {
+  const Scene scene;
+  const Frame frame = scene.frame();
+  const Sight sight = look(frame, region_around({0, 28, 30, 8}, {96, 64}, 8));
+  const cv::Mat whole = input_of(sight);
+  const BlockMap blocks = blocks_near(sight.mask);
+  const cv::Mat parts = input_of(sight, blocks);
+  ASSERT_FALSE(blocks.blocks.empty());
+  for (const cv::Point& block : blocks.blocks) {
+    const cv::Rect pixels = pixels_of(block) & cv::Rect({0, 0}, whole.size());
+    EXPECT_EQ(cv::norm(whole(pixels), parts(pixels), cv::NORM_INF), 0);
+  }
 }
 
 TEST(Sight, DepthIsThatOfTheRopeAroundInUnitsOfTwoWidths) {
