@@ -17,7 +17,8 @@ inline constexpr int kMostMagnifiedPixels = 1 << 23;
 inline constexpr int kMostRereadPixels = 1 << 24;
 
 /// Length of a mask's strokes, in sums of the image's two sides. Over a hundred `wide` scenes and
-/// all readings of them the most is 2.9.
+/// all readings of them the most is 2.9. Of several ropes each may
+/// also lie across the image, along its longer side.
 inline constexpr int kMostStrokeSides = 8;
 
 /// Segments of a graph. A rope that crosses itself n times has 2 n + 1; over a hundred `wide`

@@ -8,6 +8,7 @@
 #include "path/midline.hpp"
 #include "path/ranked.hpp"
 #include "path/region.hpp"
+#include "path/rope_paths.hpp"
 #include "path/strands.hpp"
 
 namespace flowdlo::path {
@@ -27,6 +28,13 @@ Stretch stretch_of(const field::AxisLine& line, const Region& region) {
   return {std::move(points), line.tips, line.closed};
 }
 
+// The axes as strands of what `region` was cut out of.
+Strands strands_of(const field::Axes& axes, const Region& region, const Frame& frame) {
+  std::vector<Stretch> stretches;
+  for (const field::AxisLine& line : axes.lines) stretches.push_back(stretch_of(line, region));
+  return make_strands(stretches, axes.width_px, region, frame);
+}
+
 }  // namespace
 
 Result<Traversals> trace_strands(const Frame& frame, const field::Axes& axes,
@@ -34,11 +42,15 @@ Result<Traversals> trace_strands(const Frame& frame, const field::Axes& axes,
   return guard::guarded("path", [&]() -> Result<Traversals> {
     const auto region = clean(frame);
     if (!region) return region.error();
-    std::vector<Stretch> stretches;
-    for (const field::AxisLine& line : axes.lines) {
-      stretches.push_back(stretch_of(line, *region));
-    }
-    return rank(make_strands(stretches, axes.width_px, *region, frame), *region, frame, config);
+    return rank(strands_of(axes, *region, frame), *region, frame, config);
+  });
+}
+
+Result<RopePaths> trace_ropes(const Frame& frame, const field::Axes& axes, int ropes) {
+  return guard::guarded("path", [&]() -> Result<RopePaths> {
+    const auto region = clean(frame, ropes);
+    if (!region) return region.error();
+    return rope_paths(strands_of(axes, *region, frame), *region, frame, ropes);
   });
 }
 
