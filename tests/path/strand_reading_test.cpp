@@ -142,6 +142,37 @@ TEST(StrandReading, RopesSideBySideInOneMaskAreTwo) {
       << "the mask alone is enough";
 }
 
+TEST(StrandReading, LinesThatChangedOverWhereARopeCrossesItselfAreJoinedAnew) {
+  // A loop: on to the right, round, and back down across itself at 45 degrees.
+  const Eigen::Vector2f crossing(79.3F, 160);
+  const Axis along = straight_axis({20, 160}, {200, 160});
+  const Axis round = testing::arc_axis({200, 110}, 50, 1.5708F, -2.3562F);
+  const Axis back = straight_axis(round.back(), {40, 199.3F});
+  Axis rope = along;
+  rope.insert(rope.end(), round.begin(), round.end());
+  rope.insert(rope.end(), back.begin(), back.end());
+  const Seen seen({rope});
+  // Seen as one line that takes the loop the wrong way round, and another one for what is left.
+  Axis wrong = straight_axis({20, 160}, crossing + Eigen::Vector2f(-5, 0));
+  const Axis over = straight_axis(crossing + Eigen::Vector2f(6, -6), round.back());
+  wrong.insert(wrong.end(), over.begin(), over.end());
+  wrong.insert(wrong.end(), round.rbegin(), round.rend());
+  const Axis to_crossing = straight_axis({200, 160}, crossing + Eigen::Vector2f(5, 0));
+  wrong.insert(wrong.end(), to_crossing.begin(), to_crossing.end());
+  field::Axes axes;
+  axes.width_px = 8;
+  axes.lines.push_back({wrong, {1, 0}});
+  axes.lines.push_back({straight_axis(crossing + Eigen::Vector2f(-4, 4), back.back()), {0, 1}});
+  const auto traced = trace_ropes(seen.canvas.frame(), axes, 0);
+  ASSERT_TRUE(traced) << traced.error().message;
+  ASSERT_EQ(traced->ropes.size(), 1U);
+  const auto& points = traced->ropes.front().points_px;
+  EXPECT_TRUE(joins(traced->ropes.front(), rope.front(), rope.back()));
+  const bool forwards = (points.front() - rope.front()).norm() < 8;
+  const auto third = points[forwards ? points.size() / 3 : points.size() - points.size() / 3];
+  EXPECT_GT(third.y(), 130) << "the loop is entered along its lower side";
+}
+
 TEST(StrandReading, OfSeveralRopesALinkBelowAnotherOneCostsWhatItsBendDoes) {
   Seen seen({straight_axis({60, 120}, {260, 120}), straight_axis({160, 30}, {160, 210})});
   const auto region = clean(seen.canvas.frame());
