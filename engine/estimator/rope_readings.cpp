@@ -25,8 +25,8 @@ constexpr float kLeadScale = 0.5F;
 
 // Share of the ropes that are right where both readings have them, and where the mask has none like
 // it, whatever the lead: flowdlo_ropes_report on 448 drawn scenes.
-constexpr float kAgreed = 0.996F;
-constexpr float kDisputed = 0.52F;
+constexpr float kAgreed = 0.995F;
+constexpr float kDisputed = 0.83F;
 
 float apart_px(const Points& a, const Points& b) {
   float most = 0;
