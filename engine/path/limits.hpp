@@ -17,9 +17,12 @@ inline constexpr int kMostMagnifiedPixels = 1 << 23;
 inline constexpr int kMostRereadPixels = 1 << 24;
 
 /// Length of a mask's strokes, in sums of the image's two sides. Over a hundred `wide` scenes and
-/// all readings of them the most is 2.9. Of several ropes each may
-/// also lie across the image, along its longer side.
+/// all readings of them the most is 2.9.
 inline constexpr int kMostStrokeSides = 8;
+
+/// The same of several ropes: 20 cables from edge to edge of 640 x 480 px. Of the hostile masks that
+/// one rope's limit refuses a board of 33 x 33 squares alone has less.
+inline constexpr int kMostRopesSides = 12;
 
 /// Segments of a graph. A rope that crosses itself n times has 2 n + 1; over a hundred `wide`
 /// scenes the most is 57, and 176 in a further reading.

@@ -2,11 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <opencv2/imgproc.hpp>
 #include <utility>
 
-#include "flowdlo/config.hpp"
 #include "path/limits.hpp"
 
 namespace flowdlo::path {
@@ -43,9 +41,9 @@ std::int64_t stroke_length_px(const cv::Mat& mask) {
 }
 
 Result<Strokes> strokes_of(cv::Mat mask, const cv::Size& image, int ropes) {
-  const std::int64_t one = std::int64_t{kMostStrokeSides} * (image.width + image.height);
-  const std::int64_t across = std::max(image.width, image.height);
-  const std::int64_t most = std::max(one, (ropes == 0 ? kMostRopes : ropes) * across);
+  const std::int64_t sides = image.width + image.height;
+  const std::int64_t one = kMostStrokeSides * sides;
+  const std::int64_t most = ropes == 1 ? one : kMostRopesSides * sides;
   const std::int64_t given = stroke_length_px(mask);
   if (given <= most) return Strokes{std::move(mask)};
   for (const int side_px : kFilters_px) {

@@ -80,7 +80,7 @@ TEST(Strokes, OfNoiseAndOfCheckersAreNotSeveralRopesEither) {
   Canvas checkers;
   for (int v = 4; v < 476; ++v) {
     for (int u = 4; u < 636; ++u) {
-      checkers.mask.at<std::uint8_t>(v, u) = (u / 9 + v / 9) % 2 == 0 ? 255 : 0;
+      checkers.mask.at<std::uint8_t>(v, u) = (u / 16 + v / 16) % 2 == 0 ? 255 : 0;
     }
   }
   for (const Canvas& canvas : {checkers, grain}) {
