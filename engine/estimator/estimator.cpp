@@ -108,6 +108,8 @@ struct FLOWDLO_HIDDEN Estimator::Impl {
   [[nodiscard]] estimator::ReadingLimits limits(const estimator::Budget& budget,
                                                 const Timings& timings);
   [[nodiscard]] double sampling_ms(const estimator::Rereading& rereading) const;
+  [[nodiscard]] std::optional<field::Axes> axes(const Frame& frame, float rope_width_px,
+                                                const estimator::Budget& budget);
   [[nodiscard]] std::vector<int> assign(const std::vector<estimator::Hypothesis>& hypotheses) const;
 };
 
@@ -203,6 +205,18 @@ estimator::ReadingLimits Estimator::Impl::limits(const estimator::Budget& budget
 double Estimator::Impl::sampling_ms(const estimator::Rereading& rereading) const {
   const double alone_ms = threads::count(config.threads) > 1 ? 0 : rereading.expected_ms();
   return model_cost.of(1) + gate_cost.of(1) + alone_ms;
+}
+
+/// What the strand field shows; nothing without one, or where it would take too long.
+std::optional<field::Axes> Estimator::Impl::axes(const Frame& frame, float rope_width_px,
+                                                 const estimator::Budget& budget) {
+  if (!field) return std::nullopt;
+  const double rope_px = estimator::magnified_px(frame, rope_width_px);
+  if (budget.bounded() && !budget.leaves(reading_costs.of_field().of(rope_px))) {
+    return std::nullopt;
+  }
+  const auto seen = field::see(frame, rope_width_px, *field);
+  return seen ? std::optional(field::axes(*seen)) : std::nullopt;
 }
 
 /// [draws] the hypothesis that conditions each.
@@ -341,7 +355,8 @@ Result<Ropes> Estimator::estimate_ropes(const Frame& frame) {
         frame, impl_->config.ropes,
         [&](const Frame& view, const path::Traversals* traced, double share) {
           return impl_->estimate(view, {}, nullptr, budget.part(share), traced);
-        });
+        },
+        [&](float rope_width_px) { return impl_->axes(frame, rope_width_px, budget); });
   });
 }
 

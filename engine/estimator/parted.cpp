@@ -31,8 +31,6 @@ constexpr float kBesideWidths = 2.0F;    // of a rope beside a crossing, which t
 constexpr float kStretchWidths = 8.0F;   // of a path around a crossing,
 constexpr float kStretchStep = 0.125F;   // in steps of so many widths
 constexpr float kMostWidth = 1.6F;       // a rope is at most so many times as wide as is usual
-constexpr float kEvenLead = 1.2F;        // of a set, in its costs: every other rope is right here,
-constexpr float kLeadScale = 0.5F;       // as flowdlo_ropes_report has it on 128 drawn scenes
 
 std::size_t index_of(const Frame& frame, const Vector2f& p) {
   const int u = std::clamp(geometry::nearest_px(p.x()), 0, frame.width - 1);
@@ -280,18 +278,20 @@ Result<Parted> part_labelled(const Frame& frame) {
     parted.paths.rope_width_px = std::max(parted.paths.rope_width_px, traced->rope_width_px);
     parted.paths.ropes.push_back(std::move(traced->ropes.front()));
     parted.paths.lead.push_back(traced->lead.front());
+    parted.witness.push_back(Witness::kNone);
   }
   return parted;
 }
 
 }  // namespace
 
-Result<Parted> part_ropes(const Frame& frame, int ropes) {
+Result<Parted> part_ropes(const Frame& frame, int ropes, const SeeAxes& see) {
   if (!frame.instances.empty()) return part_labelled(frame);
-  auto paths = path::trace_ropes(frame, ropes);
-  if (!paths) return paths.error();
+  auto read = read_ropes(frame, ropes, see);
+  if (!read) return read.error();
   Parted parted;
-  parted.paths = *std::move(paths);
+  parted.paths = std::move(read->paths);
+  parted.witness = std::move(read->witness);
   Parting(frame, parted).share_out();
   return parted;
 }
@@ -301,8 +301,6 @@ std::vector<std::uint16_t> one_instance(const Frame& frame) {
   for (std::size_t p = 0; p < instances.size(); ++p) instances[p] = masked(frame, p) ? 1 : 0;
   return instances;
 }
-
-float told_apart(float lead) { return 1 / (1 + std::exp((kEvenLead - lead) / kLeadScale)); }
 
 std::vector<std::uint16_t> sort_longest_first(std::vector<std::uint16_t> instances,
                                               std::vector<Estimate>& ropes) {

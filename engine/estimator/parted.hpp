@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "estimator/rope_readings.hpp"
 #include "flowdlo/estimate.hpp"
 #include "flowdlo/frame.hpp"
 #include "flowdlo/result.hpp"
@@ -15,6 +16,7 @@ namespace flowdlo::estimator {
 /// The ropes of a frame told apart.
 struct Parted {
   path::RopePaths paths;
+  std::vector<Witness> witness;  ///< [ropes]
   /// [ropes] width of each, pixels, as its own part of the mask has it.
   std::vector<float> width_px;
   /// [height, width] the rope that a pixel shows, from 1; 0: none.
@@ -23,16 +25,13 @@ struct Parted {
 
 /// With labels in the frame each that covers more than a speck of the mask is one rope; otherwise
 /// the mask is read as `ropes` of them, 0: as many as it shows. Where two cross, the pixels are
-/// given to the one that is nearer beside the crossing. Expects a valid frame. Fails as
-/// path::trace_ropes does.
-[[nodiscard]] Result<Parted> part_ropes(const Frame& frame, int ropes);
+/// given to the one that is nearer beside the crossing. `see` may show the strand field
+/// (`read_ropes`); null: the mask alone is read. Expects a valid frame. Fails as path::trace_ropes
+/// does.
+[[nodiscard]] Result<Parted> part_ropes(const Frame& frame, int ropes, const SeeAxes& see = {});
 
 /// Ropes::instances of a frame that is one rope.
 [[nodiscard]] std::vector<std::uint16_t> one_instance(const Frame& frame);
-
-/// [0, 1] how likely a rope is one of the frame's where any set of ropes without it costs `lead`
-/// more (path::RopePaths).
-[[nodiscard]] float told_apart(float lead);
 
 /// Puts the longest of `ropes` first; returns `instances` with the numbers that they have then.
 [[nodiscard]] std::vector<std::uint16_t> sort_longest_first(std::vector<std::uint16_t> instances,

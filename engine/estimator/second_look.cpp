@@ -127,14 +127,6 @@ bool shaped_like_a_rope(const Hypothesis& hypothesis, const Frame& frame, float 
   return std::find(doubts.begin(), doubts.end(), Doubt::kNoRope) == doubts.end();
 }
 
-/// Pixels of the mask, magnified as the network sees a rope of that width.
-double magnified_px(const Frame& frame, float rope_width_px) {
-  const auto masked = std::count_if(frame.mask.begin(), frame.mask.end(),
-                                    [](std::uint8_t value) { return value > 127; });
-  const float scale = std::min(field::kRope_px / rope_width_px, field::kMostScale);
-  return static_cast<double>(masked) * static_cast<double>(scale * scale);
-}
-
 }  // namespace
 
 std::vector<path::Reading> worth_reading(const Conditions& conditions, const Frame& frame) {
@@ -146,6 +138,13 @@ std::vector<path::Reading> worth_reading(const Conditions& conditions, const Fra
   if (paths.ranked.front().points_px.size() > path::kMostRereadSides * sides) return {};
   if (!shaped_like_a_rope(first.front(), frame, paths.rope_width_px)) return {};
   return path::further_readings(frame, paths.rope_width_px);
+}
+
+double magnified_px(const Frame& frame, float rope_width_px) {
+  const auto masked = std::count_if(frame.mask.begin(), frame.mask.end(),
+                                    [](std::uint8_t value) { return value > 127; });
+  const float scale = std::min(field::kRope_px / rope_width_px, field::kMostScale);
+  return static_cast<double>(masked) * static_cast<double>(scale * scale);
 }
 
 ReadingCosts::ReadingCosts()

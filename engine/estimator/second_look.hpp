@@ -27,6 +27,9 @@ inline constexpr float kClear = 0.7F;
 [[nodiscard]] std::vector<path::Reading> worth_reading(const Conditions& conditions,
                                                        const Frame& frame);
 
+/// Pixels of the mask, magnified as the network of a strand field sees a rope of that width.
+[[nodiscard]] double magnified_px(const Frame& frame, float rope_width_px);
+
 /// What a further reading takes. From frame to frame: what one frame took is what the next expects.
 class ReadingCosts {
  public:

@@ -24,9 +24,10 @@ Result<void> one_rope(const Frame& frame, const EstimateOne& one, Ropes& result)
   return {};
 }
 
-Result<void> several_ropes(const Frame& frame, int ropes, const EstimateOne& one, Ropes& result) {
+Result<void> several_ropes(const Frame& frame, int ropes, const EstimateOne& one,
+                           const SeeAxes& see, Ropes& result) {
   Stopwatch stage;
-  const auto parted = part_ropes(frame, ropes);
+  const auto parted = part_ropes(frame, ropes, see);
   if (!parted) return parted.error();
   stage.lap(result.parting_ms);
   const std::size_t count = parted->paths.ropes.size();
@@ -47,7 +48,7 @@ Result<void> several_ropes(const Frame& frame, int ropes, const EstimateOne& one
       continue;
     }
     rope->closed = parted->paths.ropes[i].closed;
-    rope->confidence *= told_apart(parted->paths.lead[i]);
+    rope->confidence *= told_apart(parted->paths.lead[i], parted->witness[i]);
     result.ropes.push_back(*std::move(rope));
     number[i + 1] = static_cast<std::uint16_t>(result.ropes.size());
   }
@@ -60,11 +61,12 @@ Result<void> several_ropes(const Frame& frame, int ropes, const EstimateOne& one
 
 }  // namespace
 
-Result<Ropes> estimate_each(const Frame& frame, int ropes, const EstimateOne& one) {
+Result<Ropes> estimate_each(const Frame& frame, int ropes, const EstimateOne& one,
+                            const SeeAxes& see) {
   Stopwatch total;
   Ropes result;
   const bool alone = ropes == 1 && frame.instances.empty();
-  auto done = alone ? one_rope(frame, one, result) : several_ropes(frame, ropes, one, result);
+  auto done = alone ? one_rope(frame, one, result) : several_ropes(frame, ropes, one, see, result);
   if (!done) return done.error();
   result.crossings = rope_crossings(result.ropes, frame);
   total.lap(result.total_ms);

@@ -3,6 +3,7 @@
 
 #include <functional>
 
+#include "estimator/rope_readings.hpp"
 #include "flowdlo/estimate.hpp"
 #include "flowdlo/frame.hpp"
 #include "flowdlo/result.hpp"
@@ -15,9 +16,11 @@ namespace flowdlo::estimator {
 using EstimateOne =
     std::function<Result<Estimate>(const Frame&, const path::Traversals*, double share)>;
 
-/// Tells the ropes apart (`part_ropes`) and estimates each by `one`. One rope without labels is
-/// `one` of the frame itself. A rope that `one` fails of, as one without any depth, is left out as
-/// long as another is not. Expects a valid frame. Fails as part_ropes and `one` do.
-[[nodiscard]] Result<Ropes> estimate_each(const Frame& frame, int ropes, const EstimateOne& one);
+/// Tells the ropes apart (`part_ropes`, `see` as there) and estimates each by `one`. One rope
+/// without labels is `one` of the frame itself. A rope that `one` fails of, as one without any
+/// depth, is left out as long as another is not. Expects a valid frame. Fails as part_ropes and
+/// `one` do.
+[[nodiscard]] Result<Ropes> estimate_each(const Frame& frame, int ropes, const EstimateOne& one,
+                                          const SeeAxes& see = {});
 
 }  // namespace flowdlo::estimator

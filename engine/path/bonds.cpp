@@ -105,10 +105,10 @@ float passing(const Strands& strands, const Bridge& bridge, const StrandEnd& fro
 
 class Builder {
  public:
-  Builder(const Strands& strands, const Region& region, const Frame& frame, bool rings)
+  Builder(const Strands& strands, const Region& region, const Frame& frame, bool several)
       : strands_(strands),
         frame_(frame),
-        rings_(rings),
+        several_(several),
         cover_(region, frame, strands.width_px),
         bonds_(2 * strands.list.size()),
         kept_(bonds_.size()) {
@@ -293,7 +293,7 @@ class Builder {
   };
 
   void consider(int a, int b, float extra, std::vector<Gap>& gaps) const {
-    if ((a / 2 == b / 2 && !rings_) || strands_.folds(a, b) || strands_.folds(b, a)) return;
+    if ((a / 2 == b / 2 && !several_) || strands_.folds(a, b) || strands_.folds(b, a)) return;
     const float apart = (strands_.end(a).point_px - strands_.end(b).point_px).norm();
     const float straight = kGapStart + apart / (kGapWidths * strands_.scale_px);
     const float most = most_for(a, b);
@@ -304,12 +304,34 @@ class Builder {
   void link(const Gap& gap) {
     const StrandEnd& a = strands_.end(gap.from);
     const StrandEnd& b = strands_.end(gap.to);
+    if (several_ && strands_.apart && covered(a.point_px, b.point_px)) return pass_below(gap);
     const float depth = depth_misfit(a, b, strands_.width_px, frame_.intrinsics.fx, true);
     const float kept = std::max(most_at(gap.from), most_at(gap.to));
     const float curve_most = std::min(gap.most, kept) - gap.extra - kGapStart - depth + kRounding;
     const float curve = gap_cost(a, b, cover_, strands_.scale_px, curve_most);
     const float cost = gap.extra + (kGapStart + curve + depth);
     if (curve < curve_most && cost < gap.most) add(gap.from, gap.to, cost, true);
+  }
+
+  // Whether the mask shows a rope all the way from one place to another.
+  [[nodiscard]] bool covered(const Vector2f& from, const Vector2f& to) const {
+    const auto steps = static_cast<int>(std::ceil((to - from).norm()));
+    for (int i = 0; i <= steps; ++i) {
+      const float t = static_cast<float>(i) / static_cast<float>(std::max(1, steps));
+      if (!cover_.masked((1 - t) * from + t * to)) return false;
+    }
+    return true;
+  }
+
+  // Of strands that meet nowhere the lower one of a crossing has a gap there: it bends as little as
+  // through any other crossing.
+  void pass_below(const Gap& gap) {
+    const StrandEnd& a = strands_.end(gap.from);
+    const StrandEnd& b = strands_.end(gap.to);
+    const float trust = std::min(trust_in(gap.from), trust_in(gap.to));
+    const float depth = depth_misfit(a, b, strands_.width_px, frame_.intrinsics.fx, false);
+    const float cost = gap.extra + trust * bending(a, b, strands_.scale_px) + depth;
+    if (cost < gap.most) add(gap.from, gap.to, cost, true);
   }
 
   // No gap costs more than leaving out what lies beyond it.
@@ -321,7 +343,7 @@ class Builder {
 
   const Strands& strands_;
   const Frame& frame_;
-  bool rings_;
+  bool several_;
   Cover cover_;
   std::vector<std::vector<Bond>> bonds_;
   std::vector<std::vector<float>> kept_;                  // [ends] costs that are kept, ascending
@@ -332,8 +354,8 @@ class Builder {
 }  // namespace
 
 std::vector<std::vector<Bond>> make_bonds(const Strands& strands, const Region& region,
-                                          const Frame& frame, bool rings) {
-  return Builder(strands, region, frame, rings).run();
+                                          const Frame& frame, bool several) {
+  return Builder(strands, region, frame, several).run();
 }
 
 }  // namespace flowdlo::path

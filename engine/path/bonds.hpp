@@ -18,9 +18,10 @@ struct Bond {
 };
 
 /// [2 * strands] the bonds of each end, cheapest first; symmetric up to the cut at a few an end.
-/// With `rings` a gap may lead from one end of a strand to its other one.
+/// For `several` ropes a gap may lead from one end of a strand to its other one, for there may be
+/// rings; and where strands meet nowhere, one that the mask covers is a way through a crossing.
 [[nodiscard]] std::vector<std::vector<Bond>> make_bonds(const Strands& strands,
                                                         const Region& region, const Frame& frame,
-                                                        bool rings = false);
+                                                        bool several = false);
 
 }  // namespace flowdlo::path

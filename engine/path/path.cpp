@@ -126,8 +126,9 @@ RopePaths better(RopePaths parted, RopePaths whole, int ropes) {
 }
 
 template <class Answer, class Join>
-Result<Answer> trace_region(const Frame& frame, const Read<Answer>& read, const Join& join) {
-  auto region = clean(frame);
+Result<Answer> trace_region(const Frame& frame, int ropes, const Read<Answer>& read,
+                            const Join& join) {
+  auto region = clean(frame, ropes);
   if (!region) return region.error();
   auto graph = graph_of(*region);
   if (!graph) return graph.error();
@@ -141,12 +142,13 @@ Result<Answer> trace_region(const Frame& frame, const Read<Answer>& read, const 
 
 // The answer for a mask; one that is too large to be traced as it is, is traced reduced.
 template <class Answer, class Join>
-Result<Answer> trace_mask(const Frame& frame, const Read<Answer>& read, const Join& join) {
+Result<Answer> trace_mask(const Frame& frame, int ropes, const Read<Answer>& read,
+                          const Join& join) {
   const cv::Rect box = bounding_box(frame);
   const int times = reduction_of(box);
-  if (times == 1) return trace_region(frame, read, join);
+  if (times == 1) return trace_region(frame, ropes, read, join);
   const Reduced reduced(frame, box, times);
-  auto result = trace_region(reduced.frame(), read, join);
+  auto result = trace_region(reduced.frame(), ropes, read, join);
   if (result) reduced.enlarge(*result);
   return result;
 }
@@ -159,7 +161,7 @@ Result<Traversals> trace(const Frame& frame, const TraceConfig& config) {
     return rank(strands, region, seen, config);
   };
   return guard::guarded("path", [&] {
-    return trace_mask(frame, read, [&](Traversals parted, const Traversals& whole) {
+    return trace_mask(frame, 1, read, [&](Traversals parted, const Traversals& whole) {
       return merged(std::move(parted), whole, config);
     });
   });
@@ -171,7 +173,7 @@ Result<RopePaths> trace_ropes(const Frame& frame, int ropes) {
     return rope_paths(strands, region, seen, ropes);
   };
   return guard::guarded("path", [&] {
-    return trace_mask(frame, read, [&](RopePaths parted, RopePaths whole) {
+    return trace_mask(frame, ropes, read, [&](RopePaths parted, RopePaths whole) {
       return better(std::move(parted), std::move(whole), ropes);
     });
   });

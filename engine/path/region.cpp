@@ -260,7 +260,7 @@ Region smoothed(const Region& region, int size_px) {
   return result;
 }
 
-Result<Region> clean(const Frame& frame) {
+Result<Region> clean(const Frame& frame, int ropes) {
   const cv::Rect box = bounding_box(frame);
   if (box.empty()) {
     return Error{
@@ -269,7 +269,7 @@ Result<Region> clean(const Frame& frame) {
   }
   Region region;
   region.offset_px = {box.x - kBorderPx, box.y - kBorderPx};
-  auto strokes = strokes_of(crop(frame, box), {frame.width, frame.height});
+  auto strokes = strokes_of(crop(frame, box), {frame.width, frame.height}, ropes);
   if (!strokes) return strokes.error();
   region.mask = std::move(strokes->mask);
   region.filtered = strokes->filtered;

@@ -32,8 +32,8 @@ struct Region {
 [[nodiscard]] cv::Rect bounding_box(const Frame& frame);
 
 /// Crops and cleans the mask. Fails with kNoPath when it is empty, holds specks only, or more
-/// strokes than a rope can have made.
-[[nodiscard]] Result<Region> clean(const Frame& frame);
+/// strokes than one rope, or several, can have made (`strokes_of`).
+[[nodiscard]] Result<Region> clean(const Frame& frame, int ropes = 1);
 
 /// `region` cut along `lines`, which become seams; unchanged when nothing would be left of it.
 [[nodiscard]] Region cut(const Region& region,

@@ -1,6 +1,8 @@
 #include "path/strand_reading.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <vector>
 
 #include "geometry/polyline.hpp"
@@ -8,12 +10,18 @@
 #include "path/midline.hpp"
 #include "path/ranked.hpp"
 #include "path/region.hpp"
+#include "path/rope_paths.hpp"
 #include "path/strands.hpp"
 
 namespace flowdlo::path {
 namespace {
 
 using Eigen::Vector2f;
+using Points = std::vector<Vector2f>;
+
+constexpr float kTip = 0.3F;         // of an end that is its rope's
+constexpr float kJoinWidths = 1.0F;  // from half a width ahead of an end to what it runs into
+constexpr float kGrazing = 0.6F;     // cosine of the angle between them
 
 // A line in the coordinates of `region`, its points a pixel apart.
 Stretch stretch_of(const field::AxisLine& line, const Region& region) {
@@ -27,6 +35,86 @@ Stretch stretch_of(const field::AxisLine& line, const Region& region) {
   return {std::move(points), line.tips, line.closed};
 }
 
+std::vector<Stretch> stretches_of(const field::Axes& axes, const Region& region) {
+  std::vector<Stretch> stretches;
+  for (const field::AxisLine& line : axes.lines) stretches.push_back(stretch_of(line, region));
+  return stretches;
+}
+
+// A place of a stretch.
+struct Place {
+  std::size_t stretch = 0;
+  std::size_t point = 0;
+};
+
+// Where the ends of stretches that are no tips run into others, or into far parts of their own, all
+// but along them.
+std::vector<Place> joins(const std::vector<Stretch>& stretches, float width_px) {
+  const auto arm = static_cast<std::size_t>(std::max(2.0F, width_px));
+  const auto along = [&](const Points& points, std::size_t i) {
+    const std::size_t last = points.size() - 1;
+    return Vector2f(points[std::min(i + arm, last)] - points[i < arm ? 0 : i - arm]).normalized();
+  };
+  std::vector<Place> found;
+  for (std::size_t s = 0; s < stretches.size(); ++s) {
+    const Points& own = stretches[s].points_px;
+    for (const std::size_t side : {0, 1}) {
+      if (stretches[s].closed || stretches[s].tips[side] >= kTip || own.size() <= arm) continue;
+      const std::size_t end = side == 0 ? 0 : own.size() - 1;
+      const Vector2f in = side == 0 ? own[arm] : own[end - arm];
+      const Vector2f out = (own[end] - in).normalized();
+      const Vector2f ahead = own[end] + 0.5F * width_px * out;
+      for (std::size_t t = 0; t < stretches.size(); ++t) {
+        const Points& other = stretches[t].points_px;
+        std::size_t nearest = other.size();
+        float least = kJoinWidths * width_px;
+        for (std::size_t i = 2 * arm; i + 2 * arm < other.size(); ++i) {
+          const std::size_t from_end = i > end ? i - end : end - i;
+          if (t == s && from_end < 4 * arm) continue;
+          const float away = (other[i] - ahead).norm();
+          if (away >= least) continue;
+          least = away;
+          nearest = i;
+        }
+        if (nearest == other.size() || stretches[t].closed) continue;
+        if (std::abs(along(other, nearest).dot(out)) > kGrazing) found.push_back({t, nearest});
+      }
+    }
+  }
+  return found;
+}
+
+// Two strands that cross flatly look like one that goes on, and one that ends: which is which is
+// for the search. So a stretch is cut wherever another one's end runs into it flatly, without half
+// a width to either side, which bends from the one to the other.
+std::vector<Stretch> cut_at_joins(const std::vector<Stretch>& stretches, float width_px) {
+  std::vector<std::vector<std::size_t>> cuts(stretches.size());
+  for (const Place& place : joins(stretches, width_px)) {
+    cuts[place.stretch].push_back(place.point);
+  }
+  const auto least = static_cast<std::size_t>(std::max(2.0F, width_px));
+  const std::size_t half = least / 2;
+  std::vector<Stretch> result;
+  for (std::size_t s = 0; s < stretches.size(); ++s) {
+    const Points& points = stretches[s].points_px;
+    std::sort(cuts[s].begin(), cuts[s].end());
+    std::size_t first = 0;
+    for (const std::size_t cut : cuts[s]) {
+      if (cut < first + half + least) continue;
+      Stretch& part = result.emplace_back();
+      part.points_px.assign(points.begin() + static_cast<std::ptrdiff_t>(first),
+                            points.begin() + static_cast<std::ptrdiff_t>(cut - half));
+      part.tips[0] = first == 0 ? stretches[s].tips[0] : 0;
+      first = cut + half;
+    }
+    Stretch& rest = result.emplace_back(stretches[s]);
+    rest.points_px.erase(rest.points_px.begin(),
+                         rest.points_px.begin() + static_cast<std::ptrdiff_t>(first));
+    if (first > 0) rest.tips[0] = 0;
+  }
+  return result;
+}
+
 }  // namespace
 
 Result<Traversals> trace_strands(const Frame& frame, const field::Axes& axes,
@@ -34,11 +122,18 @@ Result<Traversals> trace_strands(const Frame& frame, const field::Axes& axes,
   return guard::guarded("path", [&]() -> Result<Traversals> {
     const auto region = clean(frame);
     if (!region) return region.error();
-    std::vector<Stretch> stretches;
-    for (const field::AxisLine& line : axes.lines) {
-      stretches.push_back(stretch_of(line, *region));
-    }
-    return rank(make_strands(stretches, axes.width_px, *region, frame), *region, frame, config);
+    return rank(make_strands(stretches_of(axes, *region), axes.width_px, *region, frame), *region,
+                frame, config);
+  });
+}
+
+Result<RopePaths> trace_ropes(const Frame& frame, const field::Axes& axes, int ropes) {
+  return guard::guarded("path", [&]() -> Result<RopePaths> {
+    const auto region = clean(frame, ropes);
+    if (!region) return region.error();
+    const auto stretches = cut_at_joins(stretches_of(axes, *region), axes.width_px);
+    return rope_paths(make_strands(stretches, axes.width_px, *region, frame), *region, frame,
+                      ropes);
   });
 }
 

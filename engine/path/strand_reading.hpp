@@ -14,4 +14,7 @@ namespace flowdlo::path {
 [[nodiscard]] Result<Traversals> trace_strands(const Frame& frame, const field::Axes& axes,
                                                const TraceConfig& config = {});
 
+/// As `trace_ropes`, of the axes that a network sees in the frame.
+[[nodiscard]] Result<RopePaths> trace_ropes(const Frame& frame, const field::Axes& axes, int ropes);
+
 }  // namespace flowdlo::path

@@ -150,6 +150,14 @@ void measure_depth(const Points& points, const Region& region, const Frame& fram
   end.depth_m = geometry::median_of(values);
 }
 
+// Whether the rope may leave the image at `p`.
+bool at_border(const Vector2f& p, const Region& region, const Frame& frame, float width_px) {
+  const float u = p.x() + static_cast<float>(region.offset_px.x);
+  const float v = p.y() + static_cast<float>(region.offset_px.y);
+  return std::min({u, v, static_cast<float>(frame.width - 1) - u,
+                   static_cast<float>(frame.height - 1) - v}) < width_px;
+}
+
 // The end at the front of `points`: place, directions, depth, and what lies behind it.
 void measure_end(const Points& points, const Region& region, const Frame& frame, const Cover& cover,
                  float scale_px, StrandEnd& end) {
@@ -158,6 +166,7 @@ void measure_end(const Points& points, const Region& region, const Frame& frame,
   end.curvature = curvature_at_front(points, scale_px);
   end.heading = Eigen::Rotation2Df(kHeadingWidths * scale_px * end.curvature) * end.outward;
   measure_depth(points, region, frame, scale_px, end);
+  end.leaves = at_border(points.front(), region, frame, scale_px);
   end.cut =
       cover.beyond(end.point_px, end.outward, end.depth_m, kCutWidths * scale_px) == Sight::kHidden;
 }
@@ -224,14 +233,6 @@ bool doubled(const Segment& segment, const Graph& graph, const Region& region,
   return !widths.empty() && geometry::median_of(widths) >= kDoubledWidths * sizes.width_px;
 }
 
-// Whether the rope may leave the image at `p`.
-bool at_border(const Vector2f& p, const Region& region, const Frame& frame, float width_px) {
-  const float u = p.x() + static_cast<float>(region.offset_px.x);
-  const float v = p.y() + static_cast<float>(region.offset_px.y);
-  return std::min({u, v, static_cast<float>(frame.width - 1) - u,
-                   static_cast<float>(frame.height - 1) - v}) < width_px;
-}
-
 // The ends that meet at a node lie left and right of their middle.
 void find_forks(Strands& strands) {
   std::map<int, std::pair<Vector2f, int>> met;  // node to sum and count
@@ -285,6 +286,7 @@ bool Strands::folds(int tip, int to) const {
 Strands make_strands(const std::vector<Stretch>& stretches, float width_px, const Region& region,
                      const Frame& frame) {
   Strands strands;
+  strands.apart = true;
   strands.width_px = width_px;
   strands.scale_px = std::max(kLeastScalePx, width_px);
   const Cover cover(region, frame, width_px);

@@ -18,6 +18,7 @@ struct StrandEnd {
   Eigen::Vector2f heading{0, 0};  ///< `outward`, turned on by the curvature to the very end
   float curvature = 0;            ///< 1 / px, along `outward`; positive from x to y
   bool cut = false;               ///< right behind it something nearer hides the rope
+  bool leaves = false;            ///< the image ends where it does
   float end_cost = 0;             ///< what a path pays that ends here, where it is a tip
   float link_cost = 0;            ///< and one that goes on from here, beside the link's own cost
   int crossing = -1;              ///< the crossing it runs into; -1: a tip
@@ -49,6 +50,8 @@ struct Bridge {
 struct Strands {
   std::vector<Strand> list;
   std::vector<Bridge> bridges;
+  bool apart =
+      false;  ///< a strand field's: they meet nowhere, a crossing is a gap in the lower one
   float width_px = 1;  ///< the rope's
   float scale_px = 1;  ///< the width, but no less than four pixels: what lengths are measured in
 

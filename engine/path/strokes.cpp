@@ -40,19 +40,21 @@ std::int64_t stroke_length_px(const cv::Mat& mask) {
   return border / 2;
 }
 
-Result<Strokes> strokes_of(cv::Mat mask, const cv::Size& image) {
-  const std::int64_t most = std::int64_t{kMostStrokeSides} * (image.width + image.height);
+Result<Strokes> strokes_of(cv::Mat mask, const cv::Size& image, int ropes) {
+  const std::int64_t sides = image.width + image.height;
+  const std::int64_t one = kMostStrokeSides * sides;
+  const std::int64_t most = ropes == 1 ? one : kMostRopesSides * sides;
   const std::int64_t given = stroke_length_px(mask);
   if (given <= most) return Strokes{std::move(mask)};
   for (const int side_px : kFilters_px) {
     cv::Mat smooth = majority(mask, side_px);
-    if (stroke_length_px(smooth) <= most) return Strokes{std::move(smooth), true};
+    if (stroke_length_px(smooth) <= one) return Strokes{std::move(smooth), true};
   }
   return Error{
       ErrorCode::kNoPath,
-      fmt::format("path: expected one rope, strokes at most {} px long in an image of {} x "
+      fmt::format("path: expected {}, strokes at most {} px long in an image of {} x "
                   "{}, got {} px of noise or texture; check the segmentation",
-                  most, image.width, image.height, given)};
+                  ropes == 1 ? "one rope" : "ropes", most, image.width, image.height, given)};
 }
 
 }  // namespace flowdlo::path

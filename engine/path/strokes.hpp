@@ -17,10 +17,10 @@ struct Strokes {
   bool filtered = false;  ///< the mask given is noise or texture, and this is what a filter left
 };
 
-/// `mask` as it is where one rope can have made it in an image of that size. Otherwise after a
-/// majority filter, the smallest that leaves a mask which one rope can have made: noise goes, a
-/// rope under it stays. Fails with kNoPath where none does. One pass over the mask, four with
-/// filters.
-[[nodiscard]] Result<Strokes> strokes_of(cv::Mat mask, const cv::Size& image);
+/// `mask` as it is where one rope, or several, can have made it in an image of that size.
+/// Otherwise after a majority filter, the smallest that leaves a mask which one rope can have made:
+/// noise goes, a rope under it stays. Fails with kNoPath where none does. One pass over the mask,
+/// four with filters.
+[[nodiscard]] Result<Strokes> strokes_of(cv::Mat mask, const cv::Size& image, int ropes = 1);
 
 }  // namespace flowdlo::path

@@ -13,6 +13,8 @@
 #include "estimator/rope_crossings.hpp"
 #include "estimator/rope_views.hpp"
 #include "eval/metrics.hpp"
+#include "field/axes.hpp"
+#include "field/strand_field.hpp"
 #include "prior_report/traversal.hpp"
 #include "scene/setting.hpp"
 
@@ -24,9 +26,23 @@ using Eigen::Vector3d;
 
 Vector3d vector_of(const Point3& p) { return {p.x, p.y, p.z}; }
 
+// What the strand field shows, and how long that took.
+std::optional<field::Axes> seen_axes(const Frame& frame, const RopesRun& run, float rope_width_px,
+                                     RopesOutcome& outcome) {
+  const auto begin = std::chrono::steady_clock::now();
+  const auto seen = field::see(frame, rope_width_px, *run.field);
+  if (seen) outcome.axes = field::axes(*seen);
+  const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - begin;
+  outcome.field_ms = took.count();
+  return outcome.axes;
+}
+
 // Paths and refined priors, as the estimator makes them.
-Result<Ropes> by_priors(const Frame& frame, int wanted) {
-  const auto parted = estimator::part_ropes(frame, wanted);
+Result<Ropes> by_priors(const Frame& frame, const RopesRun& run, RopesOutcome& outcome) {
+  const estimator::SeeAxes see = [&](float rope_width_px) {
+    return seen_axes(frame, run, rope_width_px, outcome);
+  };
+  const auto parted = estimator::part_ropes(frame, run.ropes, run.field != nullptr ? see : nullptr);
   if (!parted) return parted.error();
   Ropes result;
   for (std::size_t i = 0; i < parted->paths.ropes.size(); ++i) {
@@ -40,7 +56,7 @@ Result<Ropes> by_priors(const Frame& frame, int wanted) {
     rope.nodes = conditions->hypotheses.front().prior.nodes;
     rope.support = conditions->hypotheses.front().prior.support;
     rope.closed = parted->paths.ropes[i].closed;
-    rope.confidence = estimator::told_apart(parted->paths.lead[i]);
+    rope.confidence = estimator::told_apart(parted->paths.lead[i], parted->witness[i]);
     result.ropes.push_back(std::move(rope));
   }
   result.instances = estimator::sort_longest_first(parted->instances, result.ropes);
@@ -193,7 +209,7 @@ RopesOutcome outcome_of(const RopesScene& scene, const RopesRun& run) {
   const Frame frame = scene.frame(run.labels);
   const auto start = std::chrono::steady_clock::now();
   auto answer =
-      run.model != nullptr ? run.model->estimate_ropes(frame) : by_priors(frame, run.ropes);
+      run.model != nullptr ? run.model->estimate_ropes(frame) : by_priors(frame, run, outcome);
   const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - start;
   outcome.total_ms = took.count();
   if (!answer) {

@@ -2,9 +2,12 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "field/axes.hpp"
+#include "field/network.hpp"
 #include "flowdlo/centerline.hpp"
 #include "flowdlo/estimate.hpp"
 #include "flowdlo/estimator.hpp"
@@ -27,6 +30,8 @@ struct RopesOutcome {
   std::string error;                     ///< where there is no answer
   std::vector<std::uint16_t> instances;  ///< as Ropes has them
   std::vector<Estimate> ropes;           ///< as found
+  std::optional<field::Axes> axes;       ///< what the strand field showed
+  double field_ms = 0;                   ///< until it did
 };
 
 /// How ropes are told apart.
@@ -34,6 +39,7 @@ struct RopesRun {
   int ropes = 0;               ///< as Config::ropes
   bool labels = false;         ///< the true labels are given
   Estimator* model = nullptr;  ///< null: paths and refined priors, without the model
+  field::Network* field = nullptr;  ///< without the model: what tells them apart beside the mask
 };
 
 [[nodiscard]] RopesOutcome outcome_of(const RopesScene& scene, const RopesRun& run);

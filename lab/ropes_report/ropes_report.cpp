@@ -6,12 +6,16 @@
 #include <cstdint>
 #include <cstdio>
 #include <map>
+#include <memory>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "estimator/device_choice.hpp"
+#include "field/network.hpp"
 #include "ropes_report/ropes_outcome.hpp"
 #include "scene/setting.hpp"
 
@@ -30,9 +34,18 @@ struct Options {
   bool labels = false;
   bool counted = false;
   std::string weights;
+  std::string field;
   std::string overlays;
   bool all = false;
 };
+
+flowdlo::Result<flowdlo::field::Network> network_of(const std::string& file) {
+  auto loaded = flowdlo::weights::load_field(file);
+  if (!loaded) return loaded.error();
+  return flowdlo::field::Network::create(
+      std::make_shared<const flowdlo::weights::FieldWeights>(*std::move(loaded)),
+      flowdlo::estimator::cpu_back_end(1).make_program);
+}
 
 double percentile(std::vector<double> values, double share) {
   if (values.empty()) return 0;
@@ -53,7 +66,8 @@ struct Tally {
   int trusted = 0;  // confidence of a half at least, of the right
   int doubted = 0;  // below, of the wrong
   int wrong = 0;
-  std::vector<double> index_cm, total_ms;
+  std::vector<double> index_cm, total_ms, field_ms;
+  std::vector<std::pair<double, bool>> confidences;  // of each rope found, and whether it is right
 
   void add(const RopesScene& scene, const RopesOutcome& outcome) {
     ++scenes;
@@ -66,6 +80,7 @@ struct Tally {
     order_right += outcome.crossings_right;
     for (std::size_t i = 0; i < outcome.confidence.size(); ++i) {
       const bool sure = outcome.confidence[i] >= 0.5;
+      confidences.emplace_back(outcome.confidence[i], outcome.rope_right[i]);
       if (outcome.rope_right[i]) {
         trusted += sure ? 1 : 0;
       } else {
@@ -75,6 +90,31 @@ struct Tally {
     }
     index_cm.insert(index_cm.end(), outcome.index_cm.begin(), outcome.index_cm.end());
     total_ms.push_back(outcome.total_ms);
+    if (outcome.axes) field_ms.push_back(outcome.field_ms);
+  }
+
+  // How often ropes of a confidence are right.
+  void print_calibration() const {
+    constexpr std::array kBounds{0.0, 0.25, 0.5, 0.75, 0.9, 0.97, 1.0};
+    std::printf("\n| confidence | ropes | mean confidence | right |\n|---|---|---|---|\n");
+    for (std::size_t b = 0; b + 1 < kBounds.size(); ++b) {
+      int ropes = 0;
+      int correct = 0;
+      double sum = 0;
+      for (const auto& [confidence, good] : confidences) {
+        const bool last = b + 2 == kBounds.size();
+        if (confidence < kBounds[b] || (confidence >= kBounds[b + 1] && !last)) continue;
+        ++ropes;
+        correct += good ? 1 : 0;
+        sum += confidence;
+      }
+      const int most = std::max(1, ropes);
+      std::printf("| %.2f to %.2f | %d | %.3f | %.1f %% |\n", kBounds[b], kBounds[b + 1], ropes,
+                  sum / most, 100.0 * correct / most);
+    }
+    if (field_ms.empty()) return;
+    std::printf("\nms of the strand field: median %.0f, 95 %% %.0f\n", percentile(field_ms, 0.5),
+                percentile(field_ms, 0.95));
   }
 
   void print(const std::string& name) const {
@@ -113,6 +153,17 @@ bool draw(const std::string& file, const RopesScene& scene, const RopesOutcome& 
       }
     }
   }
+  for (std::size_t l = 0; outcome.axes && l < outcome.axes->lines.size(); ++l) {
+    std::vector<cv::Point> points;
+    for (const auto& p : outcome.axes->lines[l].points_px) {
+      points.emplace_back(static_cast<int>(p.x() * 16), static_cast<int>(p.y() * 16));
+    }
+    for (const cv::Point& end : {points.front(), points.back()}) {
+      cv::circle(picture, end, 2 * 16, {255, 255, 255}, -1, cv::LINE_AA, 4);
+    }
+    cv::polylines(picture, points, outcome.axes->lines[l].closed, {255, 255, 255}, 1, cv::LINE_AA,
+                  4);
+  }
   for (std::size_t i = 0; i < outcome.ropes.size(); ++i) {
     std::vector<cv::Point> points;
     for (const auto& p : outcome.ropes[i].nodes) {
@@ -129,6 +180,15 @@ bool draw(const std::string& file, const RopesScene& scene, const RopesOutcome& 
 
 int report(const Options& options) {
   std::optional<flowdlo::Estimator> model;
+  std::optional<flowdlo::field::Network> network;
+  if (!options.field.empty() && options.weights.empty()) {
+    auto opened = network_of(options.field);
+    if (!opened) {
+      std::fprintf(stderr, "%s\n", opened.error().message.c_str());
+      return 2;
+    }
+    network = *std::move(opened);
+  }
   std::map<int, Tally> by_number;
   std::map<int, Tally> by_kind;
   Tally total;
@@ -142,6 +202,8 @@ int report(const Options& options) {
         config.weights = options.weights;
         config.device = "cpu";
         config.ropes = wanted;
+        config.field_weights = options.field;
+        if (options.field.empty()) config.field = flowdlo::FieldChoice::kOff;
         auto made = flowdlo::Estimator::create(config);
         if (!made) {
           std::fprintf(stderr, "%s\n", made.error().message.c_str());
@@ -152,8 +214,9 @@ int report(const Options& options) {
       for (int i = 0; i < options.scenes; ++i) {
         const std::uint64_t seed = options.first + static_cast<std::uint64_t>(i);
         const auto scene = flowdlo::lab::make_ropes(kind, ropes, seed);
-        const auto outcome =
-            flowdlo::lab::outcome_of(scene, {wanted, options.labels, model ? &*model : nullptr});
+        const auto outcome = flowdlo::lab::outcome_of(
+            scene,
+            {wanted, options.labels, model ? &*model : nullptr, network ? &*network : nullptr});
         for (Tally* tally : {&by_number[ropes], &by_kind[k], &total}) tally->add(scene, outcome);
         const std::string name =
             std::string(name_of(kind)) + "_" + std::to_string(ropes) + "_" + std::to_string(seed);
@@ -182,6 +245,7 @@ int report(const Options& options) {
   }
   for (const auto& [ropes, tally] : by_number) tally.print(std::to_string(ropes) + " ropes");
   total.print("all");
+  total.print_calibration();
   return 0;
 }
 
@@ -210,6 +274,10 @@ int main(int count, char** values) {
   app.add_flag("--labels", options.labels, "Frame::instances are given");
   app.add_flag("--counted", options.counted, "The number of ropes is given");
   app.add_option("--weights", options.weights, "The whole estimator with this model [priors alone]")
+      ->check(CLI::ExistingFile)
+      ->type_name("FILE");
+  app.add_option("--field", options.field,
+                 "Tell them apart by this strand field as well [the mask alone]")
       ->check(CLI::ExistingFile)
       ->type_name("FILE");
   app.add_option("--overlays", options.overlays, "Draw the scenes that are not right into DIR")

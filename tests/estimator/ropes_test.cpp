@@ -4,14 +4,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <set>
 #include <stdexcept>
 
 #include "estimator/parted.hpp"
 #include "estimator/rope_crossings.hpp"
+#include "estimator/rope_readings.hpp"
 #include "estimator/rope_views.hpp"
 #include "flowdlo/estimator.hpp"
 #include "geometry/polyline.hpp"
+#include "path/strand_reading.hpp"
 #include "scene/ropes.hpp"
 #include "support/wave_frame.hpp"
 
@@ -268,10 +271,106 @@ TEST(RopeCrossings, OfARingAreThoseThatShow) {
   for (const RopeCrossing& crossing : crossings) EXPECT_EQ(crossing.over, 1);
 }
 
-TEST(ToldApart, RisesFromDoubtAtATieToCertainty) {
-  EXPECT_LT(estimator::told_apart(0), 0.2F);
-  EXPECT_LT(estimator::told_apart(1), estimator::told_apart(2));
-  EXPECT_GT(estimator::told_apart(path::kMostLead), 0.97F);
+// A path along a straight line.
+path::Path line(const Eigen::Vector2f& from, const Eigen::Vector2f& to) {
+  path::Path path;
+  for (int i = 0; i <= 100; ++i) {
+    path.points_px.emplace_back(from + (to - from) * static_cast<float>(i) / 100);
+  }
+  path.bridged.assign(path.points_px.size(), 0);
+  return path;
+}
+
+TEST(RopeReadings, OneRopeIsTheSameInEitherDirectionAndNoneThatEndsElsewhere) {
+  const path::Path rope = line({10, 10}, {200, 40});
+  EXPECT_TRUE(estimator::same_rope(rope, line({12, 14}, {198, 37}), 8));
+  EXPECT_TRUE(estimator::same_rope(rope, line({200, 40}, {10, 10}), 8));
+  EXPECT_FALSE(estimator::same_rope(rope, line({10, 10}, {150, 32}), 8));
+  EXPECT_FALSE(estimator::same_rope(rope, line({10, 30}, {200, 60}), 8));
+  path::Path ring = line({10, 10}, {200, 40});
+  ring.closed = true;
+  EXPECT_FALSE(estimator::same_rope(rope, ring, 8));
+  path::Path turned = ring;
+  std::rotate(turned.points_px.begin(), turned.points_px.begin() + 30, turned.points_px.end());
+  EXPECT_TRUE(estimator::same_rope(ring, turned, 8));
+}
+
+TEST(RopeReadings, WithoutAFieldTheMasksRopesHaveNoWitness) {
+  const auto scene = make_ropes(RopesKind::kCrossing, 2, 0);
+  const auto blind = [](float) { return std::optional<field::Axes>(); };
+  for (const estimator::SeeAxes& see : {estimator::SeeAxes(), estimator::SeeAxes(blind)}) {
+    const auto read = estimator::read_ropes(scene.frame(), 0, see);
+    ASSERT_TRUE(read) << read.error().message;
+    ASSERT_EQ(read->paths.ropes.size(), 2U);
+    EXPECT_THAT(read->witness, ::testing::Each(estimator::Witness::kNone));
+  }
+}
+
+TEST(RopeReadings, TheAxesRopesAreTakenAndTheMasksSayWhichTheyKnow) {
+  const auto scene = make_ropes(RopesKind::kCrossing, 2, 0);
+  const auto masked = path::trace_ropes(scene.frame(), 0);
+  ASSERT_TRUE(masked) << masked.error().message;
+  field::Axes axes;  // of one of the two ropes whole, of the other one a half
+  axes.width_px = masked->rope_width_px;
+  for (const path::Path& rope : masked->ropes) axes.lines.push_back({rope.points_px, {1, 1}});
+  auto& half = axes.lines.back().points_px;
+  half.resize(half.size() / 2);
+  float asked_px = 0;
+  const auto read = estimator::read_ropes(scene.frame(), 0, [&](float width_px) {
+    asked_px = width_px;
+    return std::optional(axes);
+  });
+  ASSERT_TRUE(read) << read.error().message;
+  EXPECT_EQ(asked_px, masked->rope_width_px);
+  EXPECT_THAT(read->witness, ::testing::UnorderedElementsAre(estimator::Witness::kAgrees,
+                                                             estimator::Witness::kDiffers));
+}
+
+TEST(RopeReadings, WhereTheAxesMakeNoRopesTheMasksAreInDoubt) {
+  const auto scene = make_ropes(RopesKind::kCrossing, 2, 0);
+  const auto read = estimator::read_ropes(scene.frame(), 0, [](float) {
+    return std::optional(field::Axes{{}, 8});
+  });
+  ASSERT_TRUE(read) << read.error().message;
+  ASSERT_EQ(read->paths.ropes.size(), 2U);
+  EXPECT_THAT(read->witness, ::testing::Each(estimator::Witness::kDiffers));
+}
+
+TEST(EstimateRopes, TheStrandFieldPartsARingFromARopeThatTheMaskTakesForOne) {
+  const auto scene = make_ropes(RopesKind::kRings, 2, 1);
+  auto by_mask = make(0);
+  ASSERT_EQ(estimate(by_mask, scene.frame()).ropes.size(), 1U) << "the mask alone is enough";
+  Config config{.weights = FLOWDLO_WEIGHTS, .device = "cpu", .euler_steps = 1, .draws = 1};
+  config.ropes = 0;
+  config.threads = 1;
+  config.field_weights = FLOWDLO_FIELD_WEIGHTS;
+  auto by_field = Estimator::create(config);
+  ASSERT_TRUE(by_field) << by_field.error().message;
+  const Ropes found = estimate(*by_field, scene.frame());
+  ASSERT_EQ(found.ropes.size(), 2U);
+  for (const auto& rope : scene.ropes) {
+    const auto true_m = static_cast<double>(geometry::length(rope.truth));
+    const Estimate& same = found.ropes[found.ropes[0].closed == rope.closed ? 0 : 1];
+    EXPECT_EQ(same.closed, rope.closed);
+    EXPECT_NEAR(static_cast<double>(geometry::length(same.nodes)), true_m, 0.1 * true_m);
+  }
+}
+
+TEST(ToldApart, WithoutAWitnessItRisesFromDoubtAtATieToCertainty) {
+  const auto alone = [](float lead) {
+    return estimator::told_apart(lead, estimator::Witness::kNone);
+  };
+  EXPECT_LT(alone(0), 0.2F);
+  EXPECT_LT(alone(1), alone(2));
+  EXPECT_GT(alone(path::kMostLead), 0.97F);
+}
+
+TEST(ToldApart, ARopeThatTheMaskHasAsWellIsSurerThanOneThatItHasNot) {
+  for (const float lead : {0.5F, 2.0F, 6.0F}) {
+    const float agreed = estimator::told_apart(lead, estimator::Witness::kAgrees);
+    EXPECT_GT(agreed, 0.97F);
+    EXPECT_LT(estimator::told_apart(lead, estimator::Witness::kDiffers), 0.9F * agreed);
+  }
 }
 
 }  // namespace

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "canvas.hpp"
+#include "path/bonds.hpp"
+#include "path/strands.hpp"
 #include "support/painted_field.hpp"
 
 namespace flowdlo::path {
@@ -110,6 +112,96 @@ TEST(StrandReading, AnEmptyMaskHasNoPath) {
   const auto traced = seen.traced();
   ASSERT_FALSE(traced);
   EXPECT_EQ(traced.error().code, ErrorCode::kNoPath);
+}
+
+bool joins(const Path& path, const Eigen::Vector2f& a, const Eigen::Vector2f& b) {
+  const Eigen::Vector2f& first = path.points_px.front();
+  const Eigen::Vector2f& last = path.points_px.back();
+  return std::min(std::max((first - a).norm(), (last - b).norm()),
+                  std::max((first - b).norm(), (last - a).norm())) < 8;
+}
+
+TEST(StrandReading, RopesSideBySideInOneMaskAreTwo) {
+  const Axis one = straight_axis({40, 100}, {260, 100});
+  const Axis two = straight_axis({60, 108}, {280, 108});
+  Seen seen({one, two}, 12);
+  for (const Axis* axis : {&one, &two}) {
+    show_tip(seen.field.channels, axis->front());
+    show_tip(seen.field.channels, axis->back());
+  }
+  const auto merged = trace_ropes(seen.canvas.frame(), 0);
+  const auto traced = trace_ropes(seen.canvas.frame(), field::axes(seen.field), 0);
+  ASSERT_TRUE(traced) << traced.error().message;
+  ASSERT_EQ(traced->ropes.size(), 2U);
+  const bool first = joins(traced->ropes[0], one.front(), one.back());
+  EXPECT_TRUE(joins(traced->ropes[first ? 0 : 1], one.front(), one.back()));
+  EXPECT_TRUE(joins(traced->ropes[first ? 1 : 0], two.front(), two.back()));
+  ASSERT_TRUE(merged) << merged.error().message;
+  EXPECT_FALSE(merged->ropes.size() == 2 && joins(merged->ropes[0], one.front(), one.back()) &&
+               joins(merged->ropes[1], two.front(), two.back()))
+      << "the mask alone is enough";
+}
+
+TEST(StrandReading, LinesThatChangedOverWhereARopeCrossesItselfAreJoinedAnew) {
+  // A loop: on to the right, round, and back down across itself at 45 degrees.
+  const Eigen::Vector2f crossing(79.3F, 160);
+  const Axis along = straight_axis({20, 160}, {200, 160});
+  const Axis round = testing::arc_axis({200, 110}, 50, 1.5708F, -2.3562F);
+  const Axis back = straight_axis(round.back(), {40, 199.3F});
+  Axis rope = along;
+  rope.insert(rope.end(), round.begin(), round.end());
+  rope.insert(rope.end(), back.begin(), back.end());
+  const Seen seen({rope});
+  // Seen as one line that takes the loop the wrong way round, and another one for what is left.
+  Axis wrong = straight_axis({20, 160}, crossing + Eigen::Vector2f(-5, 0));
+  const Axis over = straight_axis(crossing + Eigen::Vector2f(6, -6), round.back());
+  wrong.insert(wrong.end(), over.begin(), over.end());
+  wrong.insert(wrong.end(), round.rbegin(), round.rend());
+  const Axis to_crossing = straight_axis({200, 160}, crossing + Eigen::Vector2f(5, 0));
+  wrong.insert(wrong.end(), to_crossing.begin(), to_crossing.end());
+  field::Axes axes;
+  axes.width_px = 8;
+  axes.lines.push_back({wrong, {1, 0}});
+  axes.lines.push_back({straight_axis(crossing + Eigen::Vector2f(-4, 4), back.back()), {0, 1}});
+  const auto traced = trace_ropes(seen.canvas.frame(), axes, 0);
+  ASSERT_TRUE(traced) << traced.error().message;
+  ASSERT_EQ(traced->ropes.size(), 1U);
+  const auto& points = traced->ropes.front().points_px;
+  EXPECT_TRUE(joins(traced->ropes.front(), rope.front(), rope.back()));
+  const bool forwards = (points.front() - rope.front()).norm() < 8;
+  const auto third = points[forwards ? points.size() / 3 : points.size() - points.size() / 3];
+  EXPECT_GT(third.y(), 130) << "the loop is entered along its lower side";
+}
+
+TEST(StrandReading, OfSeveralRopesALinkBelowAnotherOneCostsWhatItsBendDoes) {
+  Seen seen({straight_axis({60, 120}, {260, 120}), straight_axis({160, 30}, {160, 210})});
+  const auto region = clean(seen.canvas.frame());
+  ASSERT_TRUE(region) << region.error().message;
+  std::vector<Stretch> stretches;
+  const auto add = [&](const Eigen::Vector2f& from, const Eigen::Vector2f& to) {
+    const Eigen::Vector2f offset(static_cast<float>(region->offset_px.x),
+                                 static_cast<float>(region->offset_px.y));
+    Stretch& stretch = stretches.emplace_back();
+    const int count = static_cast<int>((to - from).norm());
+    for (int i = 0; i <= count; ++i) {
+      stretch.points_px.emplace_back(
+          from - offset + (to - from) * static_cast<float>(i) / static_cast<float>(count));
+    }
+  };
+  add({60, 120}, {150, 120});   // ends 0 and 1: left of what crosses above,
+  add({170, 120}, {260, 120});  // 2 and 3: right of it,
+  add({160, 30}, {160, 210});   // and that
+  const Frame frame = seen.canvas.frame();
+  const auto bonds = make_bonds(make_strands(stretches, 8, *region, frame), *region, frame, true);
+  const auto cost = [&](std::size_t from, int to) {
+    for (const Bond& bond : bonds[from]) {
+      if (bond.to == to) return bond.cost;
+    }
+    return 1e9F;
+  };
+  EXPECT_LT(cost(1, 2), 0.2F);
+  EXPECT_GT(cost(1, 3), 2);  // back over its own other end
+  EXPECT_EQ(cost(1, 2), cost(2, 1));
 }
 
 }  // namespace

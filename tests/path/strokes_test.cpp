@@ -5,6 +5,7 @@
 
 #include "canvas.hpp"
 #include "path/limits.hpp"
+#include "path/path.hpp"
 
 namespace flowdlo::test {
 namespace {
@@ -54,6 +55,39 @@ TEST(Strokes, OfARopeUnderNoiseAreTheRopes) {
   EXPECT_LE(path::stroke_length_px(strokes->mask), kMost);
   const cv::Mat core = rope(9);
   EXPECT_GT(cv::countNonZero(strokes->mask & core), 0.95 * cv::countNonZero(core));
+}
+
+TEST(Strokes, OfCablesFromEdgeToEdgeAreThoseOfSeveralRopesOnly) {
+  Canvas canvas;
+  for (int row = 20; row < 480; row += 24) canvas.stroke({{2, row}, {637, row}}, 5);
+  const cv::Mat mask = canvas.mask / 255;
+  ASSERT_GT(path::stroke_length_px(mask), kMost);
+  const auto several = path::strokes_of(mask, {640, 480}, 0);
+  ASSERT_TRUE(several) << several.error().message;
+  EXPECT_FALSE(several->filtered);
+  const auto one = path::strokes_of(mask, {640, 480});
+  EXPECT_TRUE(!one || one->filtered);
+  std::fill(canvas.depth_m.begin(), canvas.depth_m.end(), 0.6F);  // a table below
+  for (int row = 20; row < 480; row += 24) canvas.depth({{2, row}, {637, row}}, 5, 0.58F);
+  const auto traced = path::trace_ropes(canvas.frame(), 0);
+  ASSERT_TRUE(traced) << traced.error().message;
+  EXPECT_EQ(traced->ropes.size(), 20U);
+}
+
+TEST(Strokes, OfNoiseAndOfCheckersAreNotSeveralRopesEither) {
+  Canvas grain;
+  grain.mask = 255 * noise(50);
+  Canvas checkers;
+  for (int v = 4; v < 476; ++v) {
+    for (int u = 4; u < 636; ++u) {
+      checkers.mask.at<std::uint8_t>(v, u) = (u / 16 + v / 16) % 2 == 0 ? 255 : 0;
+    }
+  }
+  for (const Canvas& canvas : {checkers, grain}) {
+    const auto traced = path::trace_ropes(canvas.frame(), 0);
+    ASSERT_FALSE(traced) << traced->ropes.size();
+    EXPECT_EQ(traced.error().code, ErrorCode::kNoPath);
+  }
 }
 
 TEST(Strokes, OfATextureAreNoPathAndSaySo) {

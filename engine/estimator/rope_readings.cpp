@@ -1,0 +1,95 @@
+#include "estimator/rope_readings.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <utility>
+
+#include "geometry/polyline.hpp"
+#include "path/strand_reading.hpp"
+
+namespace flowdlo::estimator {
+namespace {
+
+using Eigen::Vector2f;
+using Points = std::vector<Vector2f>;
+
+constexpr int kCompared = 64;        // points of a path that are held against another one's
+constexpr float kSameWidths = 1.5F;  // between two paths of one rope, at most
+
+// Of a set of the mask alone, in its costs: every other rope is right here, as flowdlo_ropes_report
+// has it on 128 drawn scenes.
+constexpr float kEvenLead = 1.2F;
+constexpr float kLeadScale = 0.5F;
+
+// Share of the ropes that are right where both readings have them, and where the mask has none like
+// it, whatever the lead: flowdlo_ropes_report on 448 drawn scenes.
+constexpr float kAgreed = 0.995F;
+constexpr float kDisputed = 0.83F;
+
+float apart_px(const Points& a, const Points& b) {
+  float most = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) most = std::max(most, (a[i] - b[i]).norm());
+  return most;
+}
+
+// How far a point of one path is from all of another one, at most.
+float strays_px(const Points& from, const Points& to) {
+  float most = 0;
+  for (const Vector2f& p : from) {
+    float least = std::numeric_limits<float>::max();
+    for (const Vector2f& q : to) least = std::min(least, (p - q).squaredNorm());
+    most = std::max(most, least);
+  }
+  return std::sqrt(most);
+}
+
+}  // namespace
+
+bool same_rope(const path::Path& a, const path::Path& b, float width_px) {
+  if (a.closed != b.closed) return false;
+  const float most = kSameWidths * width_px;
+  if (a.closed) {  // a ring begins anywhere
+    return strays_px(a.points_px, b.points_px) <= most &&
+           strays_px(b.points_px, a.points_px) <= most;
+  }
+  const Points one = geometry::resample(a.points_px, kCompared);
+  Points two = geometry::resample(b.points_px, kCompared);
+  if (apart_px(one, two) <= most) return true;
+  std::reverse(two.begin(), two.end());
+  return apart_px(one, two) <= most;
+}
+
+Result<RopeReadings> read_ropes(const Frame& frame, int ropes, const SeeAxes& see) {
+  auto masked = path::trace_ropes(frame, ropes);
+  if (!masked) return masked.error();
+  const std::size_t count = masked->ropes.size();
+  const auto axes = see ? see(masked->rope_width_px) : std::nullopt;
+  if (!axes) return RopeReadings{*std::move(masked), std::vector(count, Witness::kNone)};
+  auto seen = path::trace_ropes(frame, *axes, ropes);
+  if (!seen) return RopeReadings{*std::move(masked), std::vector(count, Witness::kDiffers)};
+  RopeReadings result{*std::move(seen), {}};
+  const float width_px = std::max(masked->rope_width_px, result.paths.rope_width_px);
+  for (const path::Path& rope : result.paths.ropes) {
+    const bool agrees =
+        std::any_of(masked->ropes.begin(), masked->ropes.end(),
+                    [&](const path::Path& other) { return same_rope(rope, other, width_px); });
+    result.witness.push_back(agrees ? Witness::kAgrees : Witness::kDiffers);
+  }
+  return result;
+}
+
+float told_apart(float lead, Witness witness) {
+  switch (witness) {
+    case Witness::kAgrees:
+      return kAgreed;
+    case Witness::kDiffers:
+      return kDisputed;
+    case Witness::kNone:
+      break;
+  }
+  return 1 / (1 + std::exp((kEvenLead - lead) / kLeadScale));
+}
+
+}  // namespace flowdlo::estimator

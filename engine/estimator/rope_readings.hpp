@@ -1,0 +1,46 @@
+// RopeReadings: the ropes of a frame as paths, from the strand field where it is asked and from the
+// mask alone where it is not; and which of them both readings have.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "field/axes.hpp"
+#include "flowdlo/frame.hpp"
+#include "flowdlo/result.hpp"
+#include "path/path.hpp"
+
+namespace flowdlo::estimator {
+
+/// What a strand field shows of a frame whose ropes are so many pixels wide as its mask has it;
+/// nothing where the field is not to be asked, for want of time as well, or fails.
+using SeeAxes = std::function<std::optional<field::Axes>(float rope_width_px)>;
+
+/// What a second reading says of a rope.
+enum class Witness {
+  kNone,     ///< there was none
+  kAgrees,   ///< it has the same rope
+  kDiffers,  ///< it has none like it
+};
+
+/// The ropes of a frame before pixels are given to them.
+struct RopeReadings {
+  path::RopePaths paths;
+  std::vector<Witness> witness;  ///< [ropes]
+};
+
+/// The mask's ropes (`path::trace_ropes`), or, where `see` shows axes and they make ropes, those of
+/// the axes: strands that the mask merges lie apart there. The mask's are their witness then.
+/// Expects a valid frame. Fails as path::trace_ropes does of the mask.
+[[nodiscard]] Result<RopeReadings> read_ropes(const Frame& frame, int ropes, const SeeAxes& see);
+
+/// Whether two paths are one rope's: from end to end, in either direction, never farther apart
+/// than a width and a half.
+[[nodiscard]] bool same_rope(const path::Path& a, const path::Path& b, float width_px);
+
+/// [0, 1] how likely a rope is one of the frame's: by what its witness says, or without one by
+/// `lead`, what any set of ropes without it costs more (path::RopePaths).
+[[nodiscard]] float told_apart(float lead, Witness witness);
+
+}  // namespace flowdlo::estimator
