@@ -25,8 +25,6 @@ constexpr float kSharedWidths = 5.0F;   // longest strand of one width that a se
 constexpr float kHidingWidths = 15.0F;  // or hide behind,
 constexpr float kBehindWidths = 2.5F;   // so far at least
 constexpr float kSharing = 0.6F;        // costs this
-constexpr float kFold = 2.5F;           // a strand that hides its way back costs this,
-constexpr float kFoldWidths = 3.0F;     // and one more for each so many widths
 constexpr float kLongWidths = 6.0F;     // bridges from this length on,
 constexpr float kCurved = 0.6F;         // or that turn by this angle (rad)
 constexpr float kKnownWidths = 3.0F;    // strands shorter than this are trusted less,
@@ -105,10 +103,10 @@ float passing(const Strands& strands, const Bridge& bridge, const StrandEnd& fro
 
 class Builder {
  public:
-  Builder(const Strands& strands, const Region& region, const Frame& frame, bool rings)
+  Builder(const Strands& strands, const Region& region, const Frame& frame, bool ropes)
       : strands_(strands),
         frame_(frame),
-        rings_(rings),
+        ropes_(ropes),
         cover_(region, frame, strands.width_px),
         bonds_(2 * strands.list.size()),
         kept_(bonds_.size()) {
@@ -124,7 +122,6 @@ class Builder {
   std::vector<std::vector<Bond>> run() {
     through_crossings();
     along_shared_strands();
-    around_folds();
     across_gaps();
     for (auto& list : bonds_) {
       std::sort(list.begin(), list.end(), [](const Bond& a, const Bond& b) {
@@ -168,7 +165,7 @@ class Builder {
           const float bend = bridge != bridges_.end() ? passing(strands_, *bridge->second, a, b)
                                                       : bending(a, b, strands_.scale_px);
           const float trust = std::min(trust_in(ends[i]), trust_in(ends[j]));
-          const float depth = depth_misfit(a, b, strands_.width_px, frame_.intrinsics.fx, false);
+          const float depth = misfit(a, b, false);
           add(ends[i], ends[j], trust * bend + depth, false);
         }
       }
@@ -217,24 +214,12 @@ class Builder {
       bend = std::min(bend, in * in + out * out);
     }
     const float trust = std::min(trust_in(from), trust_in(to));
-    const float depth = depth_misfit(a, b, strands_.width_px, frame_.intrinsics.fx, false);
+    const float depth = misfit(a, b, false);
     add(from, to, kSharing + trust * bend + depth, false);
   }
 
-  // A rope has two ends: where more tips show, it turns back at one of them and returns behind or
-  // beside itself.
-  void around_folds() {
-    for (int tip = 0; tip < static_cast<int>(bonds_.size()); ++tip) {
-      if (!strands_.list[tip / 2].folding || !strands_.end(tip).tip()) continue;
-      const StrandEnd& root = strands_.end(tip ^ 1);
-      for (const int to : some_at(root.crossing)) {
-        if (!strands_.folds(tip, to)) continue;
-        const float trust = std::min(trust_in(tip), trust_in(to));
-        const float hidden = strands_.list[tip / 2].covers_px / (kFoldWidths * strands_.scale_px);
-        add(tip, to, kFold + hidden + trust * bending(root, strands_.end(to), strands_.scale_px),
-            false);
-      }
-    }
+  [[nodiscard]] float misfit(const StrandEnd& a, const StrandEnd& b, bool gap) const {
+    return depth_misfit(a, b, strands_.width_px, frame_.intrinsics.fx, gap);
   }
 
   // A stump's direction is hardly known.
@@ -293,7 +278,7 @@ class Builder {
   };
 
   void consider(int a, int b, float extra, std::vector<Gap>& gaps) const {
-    if ((a / 2 == b / 2 && !rings_) || strands_.folds(a, b) || strands_.folds(b, a)) return;
+    if (a / 2 == b / 2 && !ropes_) return;
     const float apart = (strands_.end(a).point_px - strands_.end(b).point_px).norm();
     const float straight = kGapStart + apart / (kGapWidths * strands_.scale_px);
     const float most = most_for(a, b);
@@ -304,7 +289,7 @@ class Builder {
   void link(const Gap& gap) {
     const StrandEnd& a = strands_.end(gap.from);
     const StrandEnd& b = strands_.end(gap.to);
-    const float depth = depth_misfit(a, b, strands_.width_px, frame_.intrinsics.fx, true);
+    const float depth = misfit(a, b, true);
     const float kept = std::max(most_at(gap.from), most_at(gap.to));
     const float curve_most = std::min(gap.most, kept) - gap.extra - kGapStart - depth + kRounding;
     const float curve = gap_cost(a, b, cover_, strands_.scale_px, curve_most);
@@ -321,7 +306,7 @@ class Builder {
 
   const Strands& strands_;
   const Frame& frame_;
-  bool rings_;
+  bool ropes_;
   Cover cover_;
   std::vector<std::vector<Bond>> bonds_;
   std::vector<std::vector<float>> kept_;                  // [ends] costs that are kept, ascending
@@ -332,8 +317,8 @@ class Builder {
 }  // namespace
 
 std::vector<std::vector<Bond>> make_bonds(const Strands& strands, const Region& region,
-                                          const Frame& frame, bool rings) {
-  return Builder(strands, region, frame, rings).run();
+                                          const Frame& frame, bool ropes) {
+  return Builder(strands, region, frame, ropes).run();
 }
 
 }  // namespace flowdlo::path

@@ -18,9 +18,9 @@ struct Bond {
 };
 
 /// [2 * strands] the bonds of each end, cheapest first; symmetric up to the cut at a few an end.
-/// With `rings` a gap may lead from one end of a strand to its other one.
+/// With `ropes` a gap may lead from one end of a strand to its other one.
 [[nodiscard]] std::vector<std::vector<Bond>> make_bonds(const Strands& strands,
                                                         const Region& region, const Frame& frame,
-                                                        bool rings = false);
+                                                        bool ropes = false);
 
 }  // namespace flowdlo::path
