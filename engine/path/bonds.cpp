@@ -219,7 +219,7 @@ class Builder {
   }
 
   [[nodiscard]] float misfit(const StrandEnd& a, const StrandEnd& b, bool gap) const {
-    return depth_misfit(a, b, strands_.width_px, frame_.intrinsics.fx, gap);
+    return ropes_ ? depth_misfit(a, b, strands_.width_px, frame_.intrinsics.fx, gap) : 0;
   }
 
   // A stump's direction is hardly known.
