@@ -14,14 +14,13 @@
 #include "path/graph.hpp"
 #include "path/hidden_forks.hpp"
 #include "path/limits.hpp"
-#include "path/magnified.hpp"
 #include "path/ranked.hpp"
-#include "path/reduced.hpp"
 #include "path/region.hpp"
 #include "path/rings.hpp"
 #include "path/rope_paths.hpp"
 #include "path/strands.hpp"
 #include "path/thinning.hpp"
+#include "path/window.hpp"
 
 namespace flowdlo::path {
 namespace {
