@@ -22,8 +22,6 @@ using Points = std::vector<Vector2f>;
 constexpr float kRunOutWidths = 0.2F;   // past the middle of a strand that hides the end
 constexpr float kBulgeLeast = 0.85F;    // the mask reaches this far past it where a tip shows,
 constexpr float kBulgeMost = 1.6F;      // and further where the end runs along that strand
-constexpr float kBesideWidths = 1.35F;  // the mask is at least this wide there,
-constexpr float kBesideLength = 3.0F;   // for this many widths
 constexpr float kShortestAxisPx = 4.0F;
 
 struct Drawn {
@@ -118,38 +116,10 @@ Points along_bridges(const Strands& strands, const cv::Mat& distance, const std:
   return points;
 }
 
-// True where strands lie beside each other for a while, nowhere on each other.
-bool side_by_side(const Strands& strands, const std::vector<int>& way) {
-  std::size_t length = 0;
-  for (const int end : way) {
-    const Bridge& bridge = strands.bridges[end / 2];
-    if (bridge.narrowest_px < kBesideWidths * strands.width_px) return false;
-    length += bridge.points_px.size();
-  }
-  return static_cast<float>(length) > kBesideLength * strands.scale_px;
-}
-
-// From a tip back along its strand, and on to what it turns to.
-Points way_back(const Strands& strands, int tip, int to) {
-  Points points = strands.list[tip / 2].points_px;
-  if (tip % 2 == 1) std::reverse(points.begin(), points.end());
-  const Points on = cubic(strands.end(tip ^ 1), strands.end(to));
-  points.insert(points.end(), on.begin(), on.end());
-  return points;
-}
-
 // Through a crossing the cubic is the better guess (the skeleton there is pulled to the middle),
 // as long as it stays in the mask; otherwise the skeleton is followed.
 void draw_bond(const Strands& strands, const Region& region, const Cover& cover, int from_id,
                int to_id, Drawn& drawn) {
-  const bool leaves_tip = strands.folds(from_id, to_id);
-  if (leaves_tip || strands.folds(to_id, from_id)) {
-    Points points =
-        leaves_tip ? way_back(strands, from_id, to_id) : way_back(strands, to_id, from_id);
-    if (!leaves_tip) std::reverse(points.begin(), points.end());
-    for (const Vector2f& p : points) drawn.add(p, false);
-    return;
-  }
   const StrandEnd& from = strands.end(from_id);
   const StrandEnd& to = strands.end(to_id);
   const bool gap = from.tip() || to.tip() || from.crossing != to.crossing;
@@ -160,7 +130,7 @@ void draw_bond(const Strands& strands, const Region& region, const Cover& cover,
   std::vector<int> way;
   if (from.node != to.node) way = bridges_between(strands, from.node, to.node);
   Points points = cubic(from, to);
-  if (!way.empty() && (side_by_side(strands, way) || !inside(points, region.mask))) {
+  if (!way.empty() && !inside(points, region.mask)) {
     points = along_bridges(strands, region.distance_px, way, from, to);
   }
   for (const Vector2f& p : points) drawn.add(p, false);

@@ -25,8 +25,6 @@ constexpr float kSharedWidths = 5.0F;   // longest strand of one width that a se
 constexpr float kHidingWidths = 15.0F;  // or hide behind,
 constexpr float kBehindWidths = 2.5F;   // so far at least
 constexpr float kSharing = 0.6F;        // costs this
-constexpr float kFold = 2.5F;           // a strand that hides its way back costs this,
-constexpr float kFoldWidths = 3.0F;     // and one more for each so many widths
 constexpr float kLongWidths = 6.0F;     // bridges from this length on,
 constexpr float kCurved = 0.6F;         // or that turn by this angle (rad)
 constexpr float kKnownWidths = 3.0F;    // strands shorter than this are trusted less,
@@ -124,7 +122,6 @@ class Builder {
   std::vector<std::vector<Bond>> run() {
     through_crossings();
     along_shared_strands();
-    around_folds();
     across_gaps();
     for (auto& list : bonds_) {
       std::sort(list.begin(), list.end(), [](const Bond& a, const Bond& b) {
@@ -168,7 +165,7 @@ class Builder {
           const float bend = bridge != bridges_.end() ? passing(strands_, *bridge->second, a, b)
                                                       : bending(a, b, strands_.scale_px);
           const float trust = std::min(trust_in(ends[i]), trust_in(ends[j]));
-          const float depth = depth_misfit(a, b, strands_.width_px, frame_.intrinsics.fx, false);
+          const float depth = misfit(a, b, false);
           add(ends[i], ends[j], trust * bend + depth, false);
         }
       }
@@ -217,24 +214,12 @@ class Builder {
       bend = std::min(bend, in * in + out * out);
     }
     const float trust = std::min(trust_in(from), trust_in(to));
-    const float depth = depth_misfit(a, b, strands_.width_px, frame_.intrinsics.fx, false);
+    const float depth = misfit(a, b, false);
     add(from, to, kSharing + trust * bend + depth, false);
   }
 
-  // A rope has two ends: where more tips show, it turns back at one of them and returns behind or
-  // beside itself.
-  void around_folds() {
-    for (int tip = 0; tip < static_cast<int>(bonds_.size()); ++tip) {
-      if (!strands_.list[tip / 2].folding || !strands_.end(tip).tip()) continue;
-      const StrandEnd& root = strands_.end(tip ^ 1);
-      for (const int to : some_at(root.crossing)) {
-        if (!strands_.folds(tip, to)) continue;
-        const float trust = std::min(trust_in(tip), trust_in(to));
-        const float hidden = strands_.list[tip / 2].covers_px / (kFoldWidths * strands_.scale_px);
-        add(tip, to, kFold + hidden + trust * bending(root, strands_.end(to), strands_.scale_px),
-            false);
-      }
-    }
+  [[nodiscard]] float misfit(const StrandEnd& a, const StrandEnd& b, bool gap) const {
+    return several_ ? depth_misfit(a, b, strands_.width_px, frame_.intrinsics.fx, gap) : 0;
   }
 
   // A stump's direction is hardly known.
@@ -293,7 +278,7 @@ class Builder {
   };
 
   void consider(int a, int b, float extra, std::vector<Gap>& gaps) const {
-    if ((a / 2 == b / 2 && !several_) || strands_.folds(a, b) || strands_.folds(b, a)) return;
+    if (a / 2 == b / 2 && !several_) return;
     const float apart = (strands_.end(a).point_px - strands_.end(b).point_px).norm();
     const float straight = kGapStart + apart / (kGapWidths * strands_.scale_px);
     const float most = most_for(a, b);
@@ -305,7 +290,7 @@ class Builder {
     const StrandEnd& a = strands_.end(gap.from);
     const StrandEnd& b = strands_.end(gap.to);
     if (several_ && strands_.apart && covered(a.point_px, b.point_px)) return pass_below(gap);
-    const float depth = depth_misfit(a, b, strands_.width_px, frame_.intrinsics.fx, true);
+    const float depth = misfit(a, b, true);
     const float kept = std::max(most_at(gap.from), most_at(gap.to));
     const float curve_most = std::min(gap.most, kept) - gap.extra - kGapStart - depth + kRounding;
     const float curve = gap_cost(a, b, cover_, strands_.scale_px, curve_most);

@@ -17,8 +17,8 @@ using Points = std::vector<Vector2f>;
 constexpr float kTrimWidths = 0.3F;     // what a round tip takes from the stretch
 constexpr float kTangentWidths = 3.0F;  // what tells the direction at its end
 constexpr float kRunOutWidths = 2.5F;   // from there to where the strands part,
-constexpr float kPartWidths = 12.0F;    // from a fork on,
-constexpr float kCutOffWidths = 8.0F;   // or an occluder aslant hides both
+constexpr float kPartWidths = 12.0F;    // from a fork on
+constexpr float kLoopedWidths = 8.0F;   // or where both are ends of one loop
 constexpr float kStepWidths = 2.0F;     // within this way two strands become one
 constexpr float kStepKept = 1.5F;       // and stay one for this long,
 constexpr float kSingleLeast = 0.75F;   // this wide at least
@@ -133,9 +133,7 @@ bool CutEnds::at_edge(Points& points, const Line& after, bool tip) const {
   if (const Station* station = step(after, width_px)) {
     return beside_step(points, after, *station, direction, width_px);
   }
-  const bool cut_off = tip && !after.empty() && !after.front().whole;
-  const bool far = cut_off || (tip && !turns);
-  const float most = (far ? kCutOffWidths : kRunOutWidths) * width_px + 2;
+  const float most = (tip && !turns ? kLoopedWidths : kRunOutWidths) * width_px + 2;
   const float to_edge = reach(mask_, from, direction, most);
   if (to_edge + kScanStepPx >= most) return false;
   if (!tip || !turns || !round(from + to_edge * direction, direction, width_px)) {

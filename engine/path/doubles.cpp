@@ -26,8 +26,7 @@ constexpr float kDoubleMost = 2.7F;    // to this
 constexpr float kMeanLeast = 1.52F;    // in the mean;
 constexpr float kAslantLeast = 1.33F;  // seen aslant, one partly hides the other: between forks
 constexpr float kMeanMost = 2.4F;
-constexpr float kShortest = 4.0F;  // widths; a flat crossing is shorter
-constexpr float kShortestStepped = 2.0F;
+constexpr float kShortest = 4.0F;     // widths; a flat crossing is shorter
 constexpr float kShortestPx = 20.0F;  // what frays leave on thin ropes is shorter too
 constexpr float kClearMean = 1.85F;   // what is this much wider in the mean
 constexpr float kStandsSeamPx = 8.0F;
@@ -63,9 +62,7 @@ class Cutter {
       const float mean = sum / length;
       const float width_px = size_px_ * line[(first + last) / 2].nearer;
       ends_.clear = mean > kClearMean;
-      const bool brief = mean > kMeanLeast && stepped(line, first, last - 1);
-      const float shortest = (brief ? kShortestStepped : kShortest) * width_px;
-      if (length >= std::max(shortest, kShortestPx) && mean < kMeanMost &&
+      if (length >= std::max(kShortest * width_px, kShortestPx) && mean < kMeanMost &&
           (mean > std::max(kMeanLeast, least_) ||
            (mean > std::max(kAslantLeast, least_) && anchored(segment, line, first, last - 1)))) {
         draw(segment, line, first, last - 1);
@@ -139,13 +136,6 @@ class Cutter {
     std::reverse(before.begin(), before.end());
     return {std::move(before),
             Line(line.begin() + last + 1, line.begin() + std::min(count, last + 1 + most))};
-  }
-
-  // Whether one of the two strands stops at an end of a stretch: a crossing does not look so.
-  [[nodiscard]] bool stepped(const Line& line, int first, int last) const {
-    const float width_px = size_px_ * line[(first + last) / 2].nearer;
-    const auto [before, after] = around(line, first, last);
-    return ends_.step(before, width_px) != nullptr || ends_.step(after, width_px) != nullptr;
   }
 
   // Whether both ends of a stretch show where a second strand comes or goes: a fork, or a step.

@@ -8,7 +8,6 @@
 #include "geometry/depth.hpp"
 #include "guard/guarded.hpp"
 #include "path/limits.hpp"
-#include "path/reduced.hpp"
 #include "path/region.hpp"
 #include "path/window.hpp"
 

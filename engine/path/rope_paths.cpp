@@ -122,13 +122,8 @@ Error no_set(int ropes, const Strands& strands) {
 
 }  // namespace
 
-Result<RopePaths> rope_paths(const Strands& given, const Region& region, const Frame& frame,
+Result<RopePaths> rope_paths(const Strands& strands, const Region& region, const Frame& frame,
                              int ropes) {
-  Strands strands = given;
-  // Many tips tell of folds where they are one rope's; of several each has two.
-  if (ropes != 1) {
-    for (Strand& strand : strands.list) strand.folding = false;
-  }
   const auto bonds = ropes == 1 ? make_bonds(strands, region, frame, true)
                                 : bonds_of_several(strands, region, frame);
   const auto sets = search_sets(strands, bonds, ropes, kSets);

@@ -19,15 +19,9 @@ using Points = std::vector<Vector2f>;
 
 constexpr int kCalmSamples = 4;
 constexpr float kRunWidths = 3.0F;   // a narrow part is at least this long,
-constexpr float kHalfLeast = 0.42F;  // between these shares of the usual width,
+constexpr float kRunSpread = 1.25F;  // even,
+constexpr float kHalfLeast = 0.42F;  // and between these shares of the usual width
 constexpr float kHalfMost = 0.78F;
-constexpr float kTwiceLeast = 1.33F;    // where another part is so much wider,
-constexpr float kHalfMostOfTwo = 0.9F;  // up to this share
-constexpr float kStepRun = 2.0F;        // widths to each side of a step, even,
-constexpr float kStepsPx = 2.5F;        // on ropes this wide at least
-constexpr float kStepSpread = 1.2F;
-constexpr float kStepBlur = 1.0F;    // that is this long
-constexpr float kRunSpread = 1.25F;  // and even
 constexpr double kRoundPx2 = 0.01;   // what rounding adds to squared residuals
 constexpr float kThinPx = 2.0F;      // of ropes thinner than this distances to the edge tell little
 constexpr float kUsualShare = 1.5F;  // of the narrow parts' width: usual up to this
@@ -119,52 +113,30 @@ void calm(std::vector<Line>& lines, const Cover& cover, float width_px) {
   }
 }
 
-// What a line keeps between two stations, whole ones without seams; 0 where it is not even.
-float even(const Line& line, std::size_t first, std::size_t length, float spread,
-           float Station::*what) {
-  std::vector<float> values;
+// The size that a line keeps between two stations, whole ones without seams; 0 where it is not
+// even.
+float even(const Line& line, std::size_t first, std::size_t length) {
+  std::vector<float> sizes;
   for (std::size_t k = first; k < first + length; ++k) {
     if (!line[k].whole || line[k].seamed) return 0;
-    values.push_back(line[k].*what);
+    sizes.push_back(line[k].size_px);
   }
-  const float high = quantile(values, 0.85F);
-  return high <= spread * quantile(values, 0.15F) ? high : 0;
+  const float high = quantile(sizes, 0.85F);
+  return high <= kRunSpread * quantile(sizes, 0.15F) ? high : 0;
 }
 
-// The least size that a line keeps for some way; `none` where no line is long enough.
-float least_kept(const std::vector<Line>& lines, float width_px, float none) {
-  float least = none;
-  const auto length = static_cast<std::size_t>(std::max(6.0F, kRunWidths * width_px));
+// The least size that a line keeps for some way, `usual_px` at most.
+float least_kept(const std::vector<Line>& lines, float usual_px) {
+  float least = usual_px;
+  const auto length = static_cast<std::size_t>(std::max(6.0F, kRunWidths * usual_px));
   const std::size_t step = std::max<std::size_t>(1, length / 6);
   for (const Line& line : lines) {
     for (std::size_t i = 0; i + length <= line.size(); i += step) {
-      const float size = even(line, i, length, kRunSpread, &Station::size_px);
+      const float size = even(line, i, length);
       if (size > 0) least = std::min(least, size);
     }
   }
   return least;
-}
-
-// Whether a line steps from about `narrow_px` to the width of two strands, or back. Perspective
-// changes widths slowly, and depths that are another strand's change sizes alone.
-bool steps(const std::vector<Line>& lines, float narrow_px) {
-  const auto length = static_cast<std::size_t>(std::max(6.0F, kStepRun * narrow_px));
-  const auto gap = static_cast<std::size_t>(std::max(2.0F, kStepBlur * narrow_px));
-  const std::size_t stride = std::max<std::size_t>(1, length / 4);
-  for (const Line& line : lines) {
-    for (std::size_t i = 0; i + 2 * length + gap <= line.size(); i += stride) {
-      const std::size_t behind = i + length + gap;
-      const float before = even(line, i, length, kStepSpread, &Station::width_px);
-      const float after = even(line, behind, length, kStepSpread, &Station::width_px);
-      if (before <= 0 || after <= 0) continue;
-      const Station& narrow = line[before < after ? i : behind];
-      if (narrow.size_px < kSingleShare * narrow_px &&
-          std::max(before, after) > kTwiceLeast * std::min(before, after)) {
-        return true;
-      }
-    }
-  }
-  return false;
 }
 
 // The median of what is not much wider than the narrow parts; 0 without any.
@@ -229,11 +201,8 @@ Aside step_aside(const Points& before, const Points& after, const Vector2f& left
 
 float single_size(const std::vector<Line>& lines, float usual_px) {
   if (usual_px < kThinPx) usual_px = std::max(usual_px, usual_size(lines));
-  // Twice: at first the usual width may be that of two strands.
-  float narrow = std::min(usual_px, least_kept(lines, usual_px, usual_px));
-  narrow = std::min(narrow, least_kept(lines, 0.5F * usual_px, narrow));
-  const float half_most = narrow > kStepsPx && steps(lines, narrow) ? kHalfMostOfTwo : kHalfMost;
-  if (narrow > half_most * usual_px || narrow < kHalfLeast * usual_px) narrow = usual_px;
+  float narrow = least_kept(lines, usual_px);
+  if (narrow > kHalfMost * usual_px || narrow < kHalfLeast * usual_px) narrow = usual_px;
   std::vector<float> single;
   std::size_t all = 0;
   for (const Line& line : lines) {

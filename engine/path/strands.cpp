@@ -30,8 +30,6 @@ constexpr int kDepthSamples = 16;
 constexpr float kSlopeWidths = 2.0F;     // a slope over this length counts half
 constexpr float kCutWidths = 3.0F;       // how far ahead an occluder is looked for
 constexpr float kHeadingWidths = 0.75F;  // from the middle of what tells the direction to the end
-constexpr float kFoldWidths = 2.5F;      // a strand this long at least may hide its way back
-constexpr float kStraightOff = 0.7F;     // of a strand's length: its tip is this far off
 constexpr float kMaxSlope = 1.5F;        // metres of depth a metre sideways
 constexpr float kLeastMasked = 0.3F;     // share of a stretch that the mask knows too
 constexpr float kEndUnseen = 1.5F;       // cost of a path's end where no end shows
@@ -251,37 +249,7 @@ void find_forks(Strands& strands) {
   }
 }
 
-// A rope has two ends. Where more show, those of strands that come from a fork may be folds.
-void mark_folds(Strands& strands) {
-  const float least = kFoldWidths * strands.scale_px;
-  int tips = 0;
-  std::map<int, int> ends;  // at each crossing
-  for (const Strand& strand : strands.list) {
-    for (const StrandEnd& end : strand.ends) {
-      if (!end.tip()) ++ends[end.crossing];
-      if (end.tip() && !end.cut && strand.covers_px > least) ++tips;
-    }
-  }
-  if (tips <= 2) return;
-  for (Strand& strand : strands.list) {
-    const bool front = strand.ends[0].tip();
-    if (front == strand.ends[1].tip() || strand.covers_px <= least) continue;
-    const StrandEnd& tip = strand.ends[front ? 0 : 1];
-    strand.folding = !tip.cut && ends[strand.ends[front ? 1 : 0].crossing] == 3;
-  }
-}
-
 }  // namespace
-
-bool Strands::folds(int tip, int to) const {
-  const StrandEnd& root = end(tip ^ 1);
-  if (!list[tip / 2].folding || tip / 2 == to / 2 || !end(tip).tip() ||
-      end(to).crossing != root.crossing) {
-    return false;
-  }
-  const float away = (end(tip).point_px - end(to).point_px).norm();
-  return away > kStraightOff * static_cast<float>(list[tip / 2].points_px.size());
-}
 
 Strands make_strands(const std::vector<Stretch>& stretches, float width_px, const Region& region,
                      const Frame& frame) {
@@ -331,7 +299,6 @@ Strands make_strands(const Graph& graph, const Region& region, const Frame& fram
     }
   }
   find_forks(strands);
-  mark_folds(strands);
   return strands;
 }
 

@@ -36,7 +36,6 @@ struct Strand {
   float covers_px = 0;   ///< length that a path wins by using it
   bool ring = false;     ///< closed: no tips, and nothing can be linked to it
   bool opened = false;   ///< a ring, but its rope's ends show where it begins
-  bool folding = false;  ///< from a fork of three to a tip where the rope may turn back
   bool doubled = false;  ///< between crossings and too wide for one rope: a second one lies on it
 };
 
@@ -56,10 +55,6 @@ struct Strands {
   float scale_px = 1;  ///< the width, but no less than four pixels: what lengths are measured in
 
   [[nodiscard]] const StrandEnd& end(int id) const { return list[id / 2].ends[id % 2]; }
-
-  /// Whether what goes on from the tip `tip` to the end `to` folds back: along its own strand, to
-  /// another one at the crossing that this one came from.
-  [[nodiscard]] bool folds(int tip, int to) const;
 };
 
 /// A stretch of one strand as a strand field shows it: crop coordinates.

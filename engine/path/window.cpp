@@ -3,7 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <opencv2/imgproc.hpp>
 #include <utility>
+
+#include "path/limits.hpp"
 
 namespace flowdlo::path {
 namespace {
@@ -11,6 +15,9 @@ namespace {
 using Eigen::Vector2f;
 
 const Vector2f kHalf{0.5F, 0.5F};
+// What lies beside the mask tells of occluders.
+constexpr int kAroundMagnifiedPx = 24;
+constexpr int kAroundReducedPx = 48;
 
 // Samples about a pixel apart of those that lie `pace` pixels apart; where a link begins or ends
 // between two of them, the new one belongs to it.
@@ -49,6 +56,12 @@ cv::Mat copied(std::span<const Pixel> pixels, int width, const cv::Rect& part, i
     std::copy(first.begin(), first.end(), copy.ptr<Pixel>(v));
   }
   return copy;
+}
+
+cv::Mat times_larger(const cv::Mat& image, int times) {
+  cv::Mat large;
+  cv::resize(image, large, image.size() * times, 0, 0, cv::INTER_NEAREST);
+  return large;
 }
 
 }  // namespace
@@ -110,5 +123,61 @@ cv::Rect widened(const cv::Rect& box, int around_px, const cv::Size& frame) {
                   box.height + 2 * around_px) &
          cv::Rect({0, 0}, frame);
 }
+
+Magnified::Magnified(const Frame& frame, const Region& region, int times)
+    : original_(frame.width, frame.height) {
+  const cv::Rect box(region.offset_px, region.mask.size());
+  window_ = {widened(box, kAroundMagnifiedPx, original_), static_cast<float>(times)};
+  camera_ = window_.camera(frame.intrinsics);
+  region_ = magnified(region, times);
+  region_.offset_px = times * (region.offset_px - window_.part.tl());
+  depth_m_ = times_larger(depth_in(frame, window_.part), times);
+  mask_ = times_larger(mask_in(frame, window_.part), times);
+  if (frame.instances.empty()) return;
+  instances_ = times_larger(instances_in(frame, window_.part), times);
+}
+
+Frame Magnified::frame() const { return frame_of(mask_, depth_m_, instances_, camera_); }
+
+std::vector<std::vector<Vector2f>> Magnified::enlarged(
+    std::vector<std::vector<Vector2f>> lines) const {
+  for (auto& line : lines) {
+    for (Vector2f& p : line) p = window_.scale * (p + kHalf) - kHalf;
+  }
+  return lines;
+}
+
+void Magnified::shrink(Traversals& traversals) const { window_.restore(traversals, original_); }
+
+void Magnified::shrink(RopePaths& paths) const { window_.restore(paths, original_); }
+
+int reduction_of(const cv::Rect& box) {
+  int times = 1;
+  while (std::int64_t{box.width / times} * (box.height / times) > kMostTracedPixels) ++times;
+  return times;
+}
+
+Reduced::Reduced(const Frame& frame, const cv::Rect& box, int times)
+    : original_(frame.width, frame.height) {
+  cv::Rect part = widened(box, kAroundReducedPx, original_);
+  part.width = std::max(1, part.width / times) * times;  // whole pixels: the last few may go
+  part.height = std::max(1, part.height / times) * times;
+  part &= cv::Rect({0, 0}, original_);
+  const cv::Size size(std::max(1, part.width / times), std::max(1, part.height / times));
+  window_ = {part, 1 / static_cast<float>(times)};
+  camera_ = window_.camera(frame.intrinsics);
+  cv::threshold(mask_in(frame, part), mask_, 127, 255, cv::THRESH_BINARY);
+  cv::resize(mask_, mask_, size, 0, 0, cv::INTER_AREA);
+  cv::threshold(mask_, mask_, 127, 255, cv::THRESH_BINARY);
+  cv::resize(depth_in(frame, part), depth_m_, size, 0, 0, cv::INTER_NEAREST);
+  if (frame.instances.empty()) return;
+  cv::resize(instances_in(frame, part), instances_, size, 0, 0, cv::INTER_NEAREST);
+}
+
+Frame Reduced::frame() const { return frame_of(mask_, depth_m_, instances_, camera_); }
+
+void Reduced::enlarge(Traversals& traversals) const { window_.restore(traversals, original_); }
+
+void Reduced::enlarge(RopePaths& paths) const { window_.restore(paths, original_); }
 
 }  // namespace flowdlo::path

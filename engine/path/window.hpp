@@ -1,10 +1,13 @@
 // Window: a part of a frame at another scale, and the way back from it.
 #pragma once
 
+#include <Eigen/Core>
 #include <opencv2/core.hpp>
+#include <vector>
 
 #include "flowdlo/frame.hpp"
 #include "path/path.hpp"
+#include "path/region.hpp"
 
 namespace flowdlo::path {
 
@@ -35,5 +38,61 @@ struct Window {
 
 /// The rectangle of that frame around `box`, `around_px` wider on every side.
 [[nodiscard]] cv::Rect widened(const cv::Rect& box, int around_px, const cv::Size& frame);
+
+/// A part of a frame at a whole multiple of its size, for ropes a few pixels wide.
+class Magnified {
+ public:
+  /// Copies what `region` and its surroundings hold of `frame`; a pixel becomes `times` squared.
+  Magnified(const Frame& frame, const Region& region, int times);
+
+  /// Views into this object.
+  [[nodiscard]] Frame frame() const;
+
+  /// The region in it.
+  [[nodiscard]] const Region& region() const { return region_; }
+
+  /// Lines of the original region in it.
+  [[nodiscard]] std::vector<std::vector<Eigen::Vector2f>> enlarged(
+      std::vector<std::vector<Eigen::Vector2f>> lines) const;
+
+  /// Brings what was traced in the magnified frame back to the pixels of the original.
+  void shrink(Traversals& traversals) const;
+  void shrink(RopePaths& paths) const;
+
+ private:
+  Window window_;
+  cv::Size original_;
+  Intrinsics camera_;
+  Region region_;
+  cv::Mat depth_m_;
+  cv::Mat mask_;
+  cv::Mat instances_;
+};
+
+/// By how much a mask in that box has to be reduced to be traced; 1: not at all.
+[[nodiscard]] int reduction_of(const cv::Rect& box);
+
+/// A part of a frame at a whole fraction of its size, for masks too large to be traced as they are.
+class Reduced {
+ public:
+  /// Copies the box and what lies around it; `times` squared pixels become one, which is mask where
+  /// half of them are.
+  Reduced(const Frame& frame, const cv::Rect& box, int times);
+
+  /// Views into this object.
+  [[nodiscard]] Frame frame() const;
+
+  /// Brings what was traced in the reduced frame back to the pixels of the original.
+  void enlarge(Traversals& traversals) const;
+  void enlarge(RopePaths& paths) const;
+
+ private:
+  Window window_;
+  cv::Size original_;
+  Intrinsics camera_;
+  cv::Mat depth_m_;
+  cv::Mat mask_;
+  cv::Mat instances_;
+};
 
 }  // namespace flowdlo::path

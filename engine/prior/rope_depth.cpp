@@ -12,7 +12,6 @@
 #include <utility>
 
 #include "geometry/quantile.hpp"
-#include "prior/background.hpp"
 #include "prior/contacts.hpp"
 #include "prior/depth_profile.hpp"
 #include "prior/rope_radius.hpp"

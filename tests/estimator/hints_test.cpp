@@ -193,15 +193,15 @@ TEST_F(Hinted, EndsFarFromTheRopeDoNoHarm) {
 
 TEST_F(Hinted, AFrameThatLeavesItOpenFollowsTheFrameBefore) {
   const Estimate plain = of(star_.frame());
-  const auto elsewhere = std::find_if(
-      plain.alternatives.begin(), plain.alternatives.end(), [&](const Alternative& alternative) {
-        return geometry::mean_distance(alternative.nodes, plain.nodes) > 0.02;
-      });
-  ASSERT_NE(elsewhere, plain.alternatives.end());
-  const Centerline& other = elsewhere->nodes;
-  const Estimate after = of(star_.frame(), {.previous = other});
-  EXPECT_LT(geometry::mean_distance(after.nodes, other), 0.005);
-  EXPECT_TRUE(after.switched);
+  int followed = 0;  // of the ways elsewhere; the gate may be sure that one of them is wrong
+  for (const Alternative& elsewhere : plain.alternatives) {
+    if (geometry::mean_distance(elsewhere.nodes, plain.nodes) <= 0.02) continue;
+    const Estimate after = of(star_.frame(), {.previous = elsewhere.nodes});
+    const bool follows = geometry::mean_distance(after.nodes, elsewhere.nodes) < 0.005;
+    EXPECT_EQ(after.switched, follows);
+    followed += follows ? 1 : 0;
+  }
+  EXPECT_GE(followed, 2);
   EXPECT_FALSE(of(star_.frame(), {.previous = plain.nodes}).switched);
 }
 

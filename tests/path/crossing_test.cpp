@@ -99,9 +99,9 @@ TEST(Crossing, FlatCrossOfTwoStrandsJoinedByALoop) {
   EXPECT_LT(frechet(traced->ranked.front(), dense), 14.0F);
 }
 
-TEST(Crossing, DepthDecidesWhereBendingCannot) {
+TEST(Crossing, DepthTellsTwoRopesApartWhereBendingCannot) {
   // A cross whose four arms are alike: right angles on either pairing of neighbours cost the same
-  // as each other, and depth says which strand is which.
+  // as each other, and depth says which arms are of one rope.
   const Curve upper = curve_of([](double t) {
     return std::pair{120 + 400 * t, 240 - 200 * std::abs(t - 0.5)};
   });
@@ -111,13 +111,13 @@ TEST(Crossing, DepthDecidesWhereBendingCannot) {
   Canvas canvas = Canvas().stroke(upper, 12).stroke(lower, 12);
   canvas.depth(lower, 14, 0.62F).depth(upper, 14, 0.50F);
 
-  const auto traced = path::trace(canvas.frame());
+  const auto traced = path::trace_ropes(canvas.frame(), 2);
 
-  // Both strands touch at their kinks: by bending alone they would cross.
   ASSERT_TRUE(traced);
-  const auto flat = path::trace(Canvas().stroke(upper, 12).stroke(lower, 12).frame());
-  ASSERT_TRUE(flat);
-  EXPECT_NE(traced->ranked.front().points_px, flat->ranked.front().points_px);
+  ASSERT_EQ(traced->ropes.size(), 2U);
+  for (const path::Path& rope : traced->ropes) {  // both touch at their kinks
+    EXPECT_EQ(rope.points_px.front().y() < 240, rope.points_px.back().y() < 240);
+  }
 }
 
 TEST(Crossing, TouchingStrandsDoNotChangeSides) {

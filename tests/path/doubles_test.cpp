@@ -126,16 +126,6 @@ TEST(Doubles, FillTheStemOfALoopWhoseEndsLieTogether) {
   }
 }
 
-TEST(Doubles, AreFoundHoweverShortWhereAStrandStops) {
-  // A rope whose end runs back beside it for three widths.
-  const int width_px = 13;
-  Curve curve = hairpin(width_px, false, width_px);
-  curve[0].x = 440 - 3 * width_px;
-  const auto traced = path::trace(Canvas().stroke(curve, width_px).frame());
-  ASSERT_TRUE(traced);
-  EXPECT_LT(frechet(traced->ranked.front(), dense(curve)), 3.0F + static_cast<float>(width_px));
-}
-
 TEST(Doubles, AreNotFoundInTheStemOfALoopOfOneStrand) {
   const Canvas canvas = Canvas()
                             .stroke({{60, 240}, {300, 240}}, 9)

@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include "prior/background.hpp"
 #include "prior/ends.hpp"
 #include "prior/sheet.hpp"
 
