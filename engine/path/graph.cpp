@@ -283,6 +283,7 @@ void prune(Graph& graph, const cv::Mat& distance, float width) {
     for (const auto& [reach, id] : spurs) {
       if (protrusion(graph, graph.segments[id]) != reach) continue;  // merged in the meantime
       remove(graph, id);
+      ++graph.pruned;
     }
   }
 }
@@ -312,6 +313,8 @@ Graph make_graph(const cv::Mat& thinned, const Region& region) {
   for (int i = 0; i < static_cast<int>(graph.nodes.size()); ++i) dissolve(graph, i);
   prune(graph, region.distance_px, region.width_px);
   graph.width_px = usual_width(graph, region.distance_px, region.width_px);
+  if (graph.width_px < 0.8F * region.width_px) return graph;
+  prune(graph, region.distance_px, graph.width_px);
   return graph;
 }
 

@@ -31,6 +31,7 @@ struct Graph {
   std::vector<Node> nodes;
   std::vector<Segment> segments;  ///< those not alive have been pruned or merged away
   float width_px = 1;             ///< of one strand, usual over the skeleton
+  int pruned = 0;                 ///< how many spurs went
 
   /// Whether a segment's side is a free end, or a node where more than two ends meet.
   [[nodiscard]] bool at_tip(const Segment& segment, int side) const {

@@ -25,20 +25,38 @@
 namespace flowdlo::path {
 namespace {
 
+constexpr float kRaggedSpurs = 0.12F;  // spurs a width of skeleton: the border is frayed
+constexpr int kRaggedLeast = 4;
 constexpr float kThinDoublePx = 6.0F;    // strands thinner than this are cut apart magnified,
 constexpr int kMagnified = 2;            // by this
 constexpr double kLeftOut = 6;           // what it costs to leave one of two strands out
 constexpr double kMostWorseParted = 11;  // nor do cuts help that make all this much worse
+
+float skeleton_length(const Graph& graph) {
+  float sum = 0;
+  for (const Segment& segment : graph.segments) sum += segment.alive ? segment.length_px : 0;
+  return sum;
+}
+
+bool ragged(const Graph& graph) {
+  return graph.pruned >= kRaggedLeast &&
+         static_cast<float>(graph.pruned) * graph.width_px > kRaggedSpurs * skeleton_length(graph);
+}
 
 int alive(const Graph& graph) {
   return static_cast<int>(std::count_if(graph.segments.begin(), graph.segments.end(),
                                         [](const Segment& segment) { return segment.alive; }));
 }
 
-// The graph of the mask; a noisy one is filtered first. A mask that stays a tangle of many segments
-// is no rope.
+// The graph of the mask; a frayed or noisy one is filtered first. A mask that stays a tangle of
+// many segments is no rope.
 Result<Graph> graph_of(Region& region) {
   Graph graph = make_graph(thin(region.mask), region);
+  if (ragged(graph)) {
+    const int size = std::clamp(static_cast<int>(region.width_px / 3) | 1, 3, 15);
+    region = smoothed(region, size);
+    graph = make_graph(thin(region.mask), region);
+  }
   for (int size = 5; alive(graph) > kMostSegments && size <= 21; size += 8) {
     region = smoothed(region, size);
     graph = make_graph(thin(region.mask), region);

@@ -26,6 +26,7 @@ constexpr float kSpurWidths = 0.7F;      // a branch that leads nowhere is short
 constexpr float kRungWidths = 1.3F;      // and so is a shallow one from seam to seam
 constexpr float kTangentWidths = 0.5F;   // what tells a line's direction at its tip
 constexpr float kRunOutWidths = 0.6F;    // from there to the mask's edge
+constexpr float kSliverWidths = 0.3F;    // cut off between a seam and a slit
 
 // Where `closed` is wider than one strand, for long enough to hold a seam; and what is near to
 // that. Empty when nothing is.
@@ -221,8 +222,19 @@ cv::Mat long_and_deep(const cv::Mat& lines, const cv::Mat& mask, const cv::Mat& 
   return any ? seams : cv::Mat();
 }
 
+// Adds the mask's slits that the seams run through, and what the seams cut off the mask that is no
+// strand: thin pieces beside those slits.
+void add_slits(const cv::Mat& mask, const cv::Mat& closed, float narrow_px, cv::Mat& seams) {
+  const int half = std::max(1, static_cast<int>(0.5F * kSliverWidths * narrow_px));
+  cv::Mat rest = mask.clone();
+  rest.setTo(0, seams);
+  const cv::Mat thick = dilated(eroded(rest, half), half);
+  const cv::Mat near = dilated(seams, half);
+  seams |= near & ((rest & (1 - thick)) | (closed & (1 - mask)));
+}
+
 // The seams of a mask that has `wide` parts; `closed` is the mask without its slits.
-cv::Mat seams_in(const ValleyView& view, const cv::Mat& wide, const Frame& frame) {
+cv::Mat seams_in(const ValleyView& view, const cv::Mat& wide, float narrow_px, const Frame& frame) {
   const Valleys valleys = measure_valleys(view, frame);
   if (valleys.radius_m <= 0) return {};
   const float low_m = std::max(kNoiseLow * valleys.noise_m, kRadiiLow * valleys.radius_m);
@@ -234,7 +246,10 @@ cv::Mat seams_in(const ValleyView& view, const cv::Mat& wide, const Frame& frame
   prune(lines, view.mask, valleys.depth_m, high_m, spur_px, 0);
   prune(lines, view.mask, valleys.depth_m, high_m, spur_px, kRungWidths * view.width_px);
   run_out(lines, view.mask, view.width_px);
-  return long_and_deep(lines, view.mask, valleys.depth_m, high_m, kShortestWidths * view.width_px);
+  cv::Mat seams =
+      long_and_deep(lines, view.mask, valleys.depth_m, high_m, kShortestWidths * view.width_px);
+  if (!seams.empty()) add_slits(view.mask, view.closed, narrow_px, seams);
+  return seams;
 }
 
 }  // namespace
@@ -251,7 +266,7 @@ cv::Mat find_seams(const cv::Mat& mask, const SeamScale& scale, const Frame& fra
                        cv::Rect(0, 0, mask.cols, mask.rows);
   const ValleyView view{mask(box), closed(box), inner - box.tl(), scale.offset_px + box.tl(),
                         scale.width_px};
-  const cv::Mat found = seams_in(view, wide(box), frame);
+  const cv::Mat found = seams_in(view, wide(box), scale.narrow_px, frame);
   if (found.empty()) return {};
   cv::Mat seams = cv::Mat::zeros(mask.size(), CV_8U);
   found.copyTo(seams(box));

@@ -15,9 +15,10 @@ struct SeamScale {
 };
 
 /// Where the depth shows two strands beside each other that are one in `mask` ([h, w] u8, 0 or 1,
-/// its outermost pixels 0): lines along the valley between them, [h, w] u8, 0 or 1; an empty matrix
-/// where there are none. Strands that lie in the same line through the mask's own slits are one
-/// seam. Only long seams deeper than the noise count: a crossing has none.
+/// its outermost pixels 0): lines along the valley between them and what slivers they cut off,
+/// [h, w] u8, 0 or 1; an empty matrix where there are none. Strands that lie in the same line
+/// through the mask's own slits are one seam. Only long seams deeper than the noise count: a
+/// crossing has none.
 [[nodiscard]] cv::Mat find_seams(const cv::Mat& mask, const SeamScale& scale, const Frame& frame);
 
 }  // namespace flowdlo::path

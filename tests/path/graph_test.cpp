@@ -46,6 +46,7 @@ TEST(Graph, ThornsArePrunedButAShortRopeEndIsNot) {
                             .stroke({{400, 240}, {400, 210}}, 12);  // an end
   const auto graph = graph_of(canvas);
   EXPECT_EQ(alive(graph), 3);
+  EXPECT_GE(graph.pruned, 1);
 }
 
 TEST(Graph, RingIsASegmentWithoutNodes) {
