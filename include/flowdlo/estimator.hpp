@@ -62,7 +62,7 @@ class FLOWDLO_EXPORT Estimator {
   };
   FLOWDLO_HIDDEN explicit Estimator(std::unique_ptr<Impl> impl);
   FLOWDLO_HIDDEN Result<Estimate> run(const Frame& frame, const Hints& hints, Tensors* tensors);
-  FLOWDLO_HIDDEN [[nodiscard]] Result<void> usable() const;
+  [[nodiscard]] FLOWDLO_HIDDEN Result<void> usable() const;
   std::unique_ptr<Impl, LetGo> impl_;
 };
 
