@@ -67,5 +67,19 @@ TEST(PublicHeaders, NameNoThirdPartyType) {
   EXPECT_THAT(named, IsEmpty());
 }
 
+// Clang 14 takes [[nodiscard]] behind a compiler's own attribute for one of the type.
+TEST(PublicHeaders, HaveStandardAttributesBeforeTheCompilersOwn) {
+  const std::regex behind(R"(FLOWDLO_[A-Z]+\s+\[\[\w+)");
+  EXPECT_TRUE(std::regex_search("FLOWDLO_HIDDEN [[nodiscard]] int f();", behind));
+  std::vector<std::string> found;
+  for (const auto& header : public_headers()) {
+    const auto content = read(header);
+    if (std::smatch match; std::regex_search(content, match, behind)) {
+      found.push_back(header + ": " + match.str());
+    }
+  }
+  EXPECT_THAT(found, IsEmpty());
+}
+
 }  // namespace
 }  // namespace flowdlo::project
