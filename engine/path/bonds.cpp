@@ -314,7 +314,7 @@ class Builder {
     const StrandEnd& a = strands_.end(gap.from);
     const StrandEnd& b = strands_.end(gap.to);
     const float trust = std::min(trust_in(gap.from), trust_in(gap.to));
-    const float depth = depth_misfit(a, b, strands_.width_px, frame_.intrinsics.fx, false);
+    const float depth = misfit(a, b, false);
     const float cost = gap.extra + trust * bending(a, b, strands_.scale_px) + depth;
     if (cost < gap.most) add(gap.from, gap.to, cost, true);
   }

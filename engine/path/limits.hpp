@@ -20,8 +20,8 @@ inline constexpr int kMostRereadPixels = 1 << 24;
 /// all readings of them the most is 2.9.
 inline constexpr int kMostStrokeSides = 8;
 
-/// The same of several ropes: 20 cables from edge to edge of 640 x 480 px. Of the hostile masks that
-/// one rope's limit refuses a board of 33 x 33 squares alone has less.
+/// The same of several ropes: 20 cables from edge to edge of 640 x 480 px. Of the hostile masks
+/// that one rope's limit refuses a board of 33 x 33 squares alone has less.
 inline constexpr int kMostRopesSides = 12;
 
 /// Segments of a graph. A rope that crosses itself n times has 2 n + 1; over a hundred `wide`

@@ -95,7 +95,7 @@ Result<Answer> trace_parted(const Region& region, const Doubles& doubles, const 
   const Region parted = cut(magnified.region(), magnified.enlarged(doubles.lines));
   Graph graph = make_graph(thin(parted.mask), parted);
   auto result = trace_graph(graph, parted, magnified.frame(), read);
-  if (result) magnified.shrink(*result);
+  if (result) magnified.restore(*result);
   return result;
 }
 
@@ -148,7 +148,7 @@ Result<Answer> trace_mask(const Frame& frame, int ropes, const Read<Answer>& rea
   if (times == 1) return trace_region(frame, ropes, read, join);
   const Reduced reduced(frame, box, times);
   auto result = trace_region(reduced.frame(), ropes, read, join);
-  if (result) reduced.enlarge(*result);
+  if (result) reduced.restore(*result);
   return result;
 }
 

@@ -122,7 +122,7 @@ Result<Traversals> trace_reread(Reading reading, const Frame& frame, float rope_
     const Reduced reduced(frame, box, times);
     auto result =
         trace_reread(reading, reduced.frame(), rope_width_px / static_cast<float>(times), config);
-    if (result) reduced.enlarge(*result);
+    if (result) reduced.restore(*result);
     return result;
   }
   const Reread reread = reread_as(reading, frame, box, rope_width_px);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "geometry/polyline.hpp"
@@ -47,6 +48,23 @@ struct Place {
   std::size_t point = 0;
 };
 
+// The place of `points`, away from their ends by `apart` at least, that is nearest to `p` and
+// within `most_px` of it; those for which `skipped` is true do not count.
+template <class Skipped>
+std::optional<std::size_t> nearest_within(const Points& points, std::size_t apart,
+                                          const Vector2f& p, float most_px,
+                                          const Skipped& skipped) {
+  std::optional<std::size_t> nearest;
+  for (std::size_t i = apart; i + apart < points.size(); ++i) {
+    if (skipped(i)) continue;
+    const float away = (points[i] - p).norm();
+    if (away >= most_px) continue;
+    most_px = away;
+    nearest = i;
+  }
+  return nearest;
+}
+
 // Where the ends of stretches that are no tips run into others, or into far parts of their own, all
 // but along them.
 std::vector<Place> joins(const std::vector<Stretch>& stretches, float width_px) {
@@ -65,19 +83,13 @@ std::vector<Place> joins(const std::vector<Stretch>& stretches, float width_px) 
       const Vector2f out = (own[end] - in).normalized();
       const Vector2f ahead = own[end] + 0.5F * width_px * out;
       for (std::size_t t = 0; t < stretches.size(); ++t) {
+        if (stretches[t].closed) continue;
         const Points& other = stretches[t].points_px;
-        std::size_t nearest = other.size();
-        float least = kJoinWidths * width_px;
-        for (std::size_t i = 2 * arm; i + 2 * arm < other.size(); ++i) {
-          const std::size_t from_end = i > end ? i - end : end - i;
-          if (t == s && from_end < 4 * arm) continue;
-          const float away = (other[i] - ahead).norm();
-          if (away >= least) continue;
-          least = away;
-          nearest = i;
-        }
-        if (nearest == other.size() || stretches[t].closed) continue;
-        if (std::abs(along(other, nearest).dot(out)) > kGrazing) found.push_back({t, nearest});
+        const auto nearest = nearest_within(
+            other, 2 * arm, ahead, kJoinWidths * width_px,
+            [&](std::size_t i) { return t == s && (i > end ? i - end : end - i) < 4 * arm; });
+        if (!nearest) continue;
+        if (std::abs(along(other, *nearest).dot(out)) > kGrazing) found.push_back({t, *nearest});
       }
     }
   }

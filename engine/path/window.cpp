@@ -58,6 +58,14 @@ cv::Mat copied(std::span<const Pixel> pixels, int width, const cv::Rect& part, i
   return copy;
 }
 
+// What is reduced of a frame: whole pixels of the copy; the last few of the original may go.
+cv::Rect whole_pixels(const cv::Rect& box, int times, const cv::Size& frame) {
+  cv::Rect part = widened(box, kAroundReducedPx, frame);
+  part.width = std::max(1, part.width / times) * times;
+  part.height = std::max(1, part.height / times) * times;
+  return part & cv::Rect({0, 0}, frame);
+}
+
 cv::Mat times_larger(const cv::Mat& image, int times) {
   cv::Mat large;
   cv::resize(image, large, image.size() * times, 0, 0, cv::INTER_NEAREST);
@@ -124,11 +132,17 @@ cv::Rect widened(const cv::Rect& box, int around_px, const cv::Size& frame) {
          cv::Rect({0, 0}, frame);
 }
 
+Rescaled::Rescaled(const Frame& original, const Window& window)
+    : window_(window),
+      original_(original.width, original.height),
+      camera_(window.camera(original.intrinsics)) {}
+
+Frame Rescaled::frame() const { return frame_of(mask_, depth_m_, instances_, camera_); }
+
 Magnified::Magnified(const Frame& frame, const Region& region, int times)
-    : original_(frame.width, frame.height) {
-  const cv::Rect box(region.offset_px, region.mask.size());
-  window_ = {widened(box, kAroundMagnifiedPx, original_), static_cast<float>(times)};
-  camera_ = window_.camera(frame.intrinsics);
+    : Rescaled(frame, {widened({region.offset_px, region.mask.size()}, kAroundMagnifiedPx,
+                               {frame.width, frame.height}),
+                       static_cast<float>(times)}) {
   region_ = magnified(region, times);
   region_.offset_px = times * (region.offset_px - window_.part.tl());
   depth_m_ = times_larger(depth_in(frame, window_.part), times);
@@ -136,8 +150,6 @@ Magnified::Magnified(const Frame& frame, const Region& region, int times)
   if (frame.instances.empty()) return;
   instances_ = times_larger(instances_in(frame, window_.part), times);
 }
-
-Frame Magnified::frame() const { return frame_of(mask_, depth_m_, instances_, camera_); }
 
 std::vector<std::vector<Vector2f>> Magnified::enlarged(
     std::vector<std::vector<Vector2f>> lines) const {
@@ -147,10 +159,6 @@ std::vector<std::vector<Vector2f>> Magnified::enlarged(
   return lines;
 }
 
-void Magnified::shrink(Traversals& traversals) const { window_.restore(traversals, original_); }
-
-void Magnified::shrink(RopePaths& paths) const { window_.restore(paths, original_); }
-
 int reduction_of(const cv::Rect& box) {
   int times = 1;
   while (std::int64_t{box.width / times} * (box.height / times) > kMostTracedPixels) ++times;
@@ -158,14 +166,10 @@ int reduction_of(const cv::Rect& box) {
 }
 
 Reduced::Reduced(const Frame& frame, const cv::Rect& box, int times)
-    : original_(frame.width, frame.height) {
-  cv::Rect part = widened(box, kAroundReducedPx, original_);
-  part.width = std::max(1, part.width / times) * times;  // whole pixels: the last few may go
-  part.height = std::max(1, part.height / times) * times;
-  part &= cv::Rect({0, 0}, original_);
+    : Rescaled(frame, {whole_pixels(box, times, {frame.width, frame.height}),
+                       1 / static_cast<float>(times)}) {
+  const cv::Rect& part = window_.part;
   const cv::Size size(std::max(1, part.width / times), std::max(1, part.height / times));
-  window_ = {part, 1 / static_cast<float>(times)};
-  camera_ = window_.camera(frame.intrinsics);
   cv::threshold(mask_in(frame, part), mask_, 127, 255, cv::THRESH_BINARY);
   cv::resize(mask_, mask_, size, 0, 0, cv::INTER_AREA);
   cv::threshold(mask_, mask_, 127, 255, cv::THRESH_BINARY);
@@ -173,11 +177,5 @@ Reduced::Reduced(const Frame& frame, const cv::Rect& box, int times)
   if (frame.instances.empty()) return;
   cv::resize(instances_in(frame, part), instances_, size, 0, 0, cv::INTER_NEAREST);
 }
-
-Frame Reduced::frame() const { return frame_of(mask_, depth_m_, instances_, camera_); }
-
-void Reduced::enlarge(Traversals& traversals) const { window_.restore(traversals, original_); }
-
-void Reduced::enlarge(RopePaths& paths) const { window_.restore(paths, original_); }
 
 }  // namespace flowdlo::path

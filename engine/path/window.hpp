@@ -39,14 +39,32 @@ struct Window {
 /// The rectangle of that frame around `box`, `around_px` wider on every side.
 [[nodiscard]] cv::Rect widened(const cv::Rect& box, int around_px, const cv::Size& frame);
 
-/// A part of a frame at a whole multiple of its size, for ropes a few pixels wide.
-class Magnified {
+/// A copy of a part of a frame at another scale.
+class Rescaled {
+ public:
+  /// Views into this object.
+  [[nodiscard]] Frame frame() const;
+
+  /// Brings what was traced in the copy back to the pixels of the original.
+  void restore(Traversals& traversals) const { window_.restore(traversals, original_); }
+  void restore(RopePaths& paths) const { window_.restore(paths, original_); }
+
+ protected:
+  Rescaled(const Frame& original, const Window& window);
+
+  Window window_;
+  cv::Size original_;
+  Intrinsics camera_;
+  cv::Mat depth_m_;
+  cv::Mat mask_;
+  cv::Mat instances_;
+};
+
+/// At a whole multiple of its size, for ropes a few pixels wide.
+class Magnified : public Rescaled {
  public:
   /// Copies what `region` and its surroundings hold of `frame`; a pixel becomes `times` squared.
   Magnified(const Frame& frame, const Region& region, int times);
-
-  /// Views into this object.
-  [[nodiscard]] Frame frame() const;
 
   /// The region in it.
   [[nodiscard]] const Region& region() const { return region_; }
@@ -55,44 +73,19 @@ class Magnified {
   [[nodiscard]] std::vector<std::vector<Eigen::Vector2f>> enlarged(
       std::vector<std::vector<Eigen::Vector2f>> lines) const;
 
-  /// Brings what was traced in the magnified frame back to the pixels of the original.
-  void shrink(Traversals& traversals) const;
-  void shrink(RopePaths& paths) const;
-
  private:
-  Window window_;
-  cv::Size original_;
-  Intrinsics camera_;
   Region region_;
-  cv::Mat depth_m_;
-  cv::Mat mask_;
-  cv::Mat instances_;
 };
 
 /// By how much a mask in that box has to be reduced to be traced; 1: not at all.
 [[nodiscard]] int reduction_of(const cv::Rect& box);
 
-/// A part of a frame at a whole fraction of its size, for masks too large to be traced as they are.
-class Reduced {
+/// At a whole fraction of its size, for masks too large to be traced as they are.
+class Reduced : public Rescaled {
  public:
   /// Copies the box and what lies around it; `times` squared pixels become one, which is mask where
   /// half of them are.
   Reduced(const Frame& frame, const cv::Rect& box, int times);
-
-  /// Views into this object.
-  [[nodiscard]] Frame frame() const;
-
-  /// Brings what was traced in the reduced frame back to the pixels of the original.
-  void enlarge(Traversals& traversals) const;
-  void enlarge(RopePaths& paths) const;
-
- private:
-  Window window_;
-  cv::Size original_;
-  Intrinsics camera_;
-  cv::Mat depth_m_;
-  cv::Mat mask_;
-  cv::Mat instances_;
 };
 
 }  // namespace flowdlo::path
