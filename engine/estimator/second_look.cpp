@@ -55,9 +55,11 @@ Reading read_by(const Trace& trace, const Conditions& conditions, const Frame& f
 Result<path::Traversals> trace_seen(field::Network& network, const Frame& frame,
                                     float rope_width_px, const path::TraceConfig& config,
                                     std::optional<field::Axes>& axes) {
-  const auto seen = field::see(frame, rope_width_px, network);
-  if (!seen) return seen.error();
-  axes = field::axes(*seen);
+  {  // the field of a large mask takes more memory than the paths do
+    const auto seen = field::see(frame, rope_width_px, network);
+    if (!seen) return seen.error();
+    axes = field::axes(*seen);
+  }
   return path::trace_strands(frame, *axes, config);
 }
 

@@ -13,6 +13,7 @@
 #include "path/region.hpp"
 #include "path/rope_paths.hpp"
 #include "path/strands.hpp"
+#include "path/window.hpp"
 
 namespace flowdlo::path {
 namespace {
@@ -127,26 +128,51 @@ std::vector<Stretch> cut_at_joins(const std::vector<Stretch>& stretches, float w
   return result;
 }
 
+// The axes of a frame in a copy of it.
+field::Axes axes_in(const Reduced& copy, field::Axes axes) {
+  axes.width_px *= copy.scale();
+  for (field::AxisLine& line : axes.lines) {
+    for (Vector2f& p : line.points_px) p = copy.place_of(p);
+  }
+  return axes;
+}
+
+// What `trace` makes of the frame and its axes, of a mask that is too large to be traced as it is
+// reduced, as path.cpp does it.
+template <class Answer, class Trace>
+Result<Answer> trace_reduced(const Frame& frame, const field::Axes& axes, const Trace& trace) {
+  return guard::guarded("path", [&]() -> Result<Answer> {
+    const cv::Rect box = bounding_box(frame);
+    const int times = reduction_of(box);
+    if (times == 1) return trace(frame, axes);
+    const Reduced reduced(frame, box, times);
+    Result<Answer> result = trace(reduced.frame(), axes_in(reduced, axes));
+    if (result) reduced.restore(*result);
+    return result;
+  });
+}
+
 }  // namespace
 
 Result<Traversals> trace_strands(const Frame& frame, const field::Axes& axes,
                                  const TraceConfig& config) {
-  return guard::guarded("path", [&]() -> Result<Traversals> {
-    const auto region = clean(frame);
+  const auto trace = [&](const Frame& seen, const field::Axes& lines) -> Result<Traversals> {
+    const auto region = clean(seen);
     if (!region) return region.error();
-    return rank(make_strands(stretches_of(axes, *region), axes.width_px, *region, frame), *region,
-                frame, config);
-  });
+    return rank(make_strands(stretches_of(lines, *region), lines.width_px, *region, seen), *region,
+                seen, config);
+  };
+  return trace_reduced<Traversals>(frame, axes, trace);
 }
 
 Result<RopePaths> trace_ropes(const Frame& frame, const field::Axes& axes, int ropes) {
-  return guard::guarded("path", [&]() -> Result<RopePaths> {
-    const auto region = clean(frame, ropes);
+  const auto trace = [&](const Frame& seen, const field::Axes& lines) -> Result<RopePaths> {
+    const auto region = clean(seen, ropes);
     if (!region) return region.error();
-    const auto stretches = cut_at_joins(stretches_of(axes, *region), axes.width_px);
-    return rope_paths(make_strands(stretches, axes.width_px, *region, frame), *region, frame,
-                      ropes);
-  });
+    const auto stretches = cut_at_joins(stretches_of(lines, *region), lines.width_px);
+    return rope_paths(make_strands(stretches, lines.width_px, *region, seen), *region, seen, ropes);
+  };
+  return trace_reduced<RopePaths>(frame, axes, trace);
 }
 
 }  // namespace flowdlo::path

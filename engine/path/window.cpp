@@ -81,6 +81,11 @@ Intrinsics Window::camera(const Intrinsics& frame) const {
   return {frame.fx * scale, frame.fy * scale, moved(frame.cx, part.x), moved(frame.cy, part.y)};
 }
 
+Vector2f Window::place_of(const Vector2f& p) const {
+  const Vector2f first{static_cast<float>(part.x), static_cast<float>(part.y)};
+  return scale * (p - first + kHalf) - kHalf;
+}
+
 void Window::restore(Path& path, const cv::Size& frame) const {
   const Vector2f first{static_cast<float>(part.x), static_cast<float>(part.y)};
   const Vector2f last{static_cast<float>(frame.width - 1), static_cast<float>(frame.height - 1)};

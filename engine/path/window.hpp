@@ -18,6 +18,9 @@ struct Window {
   /// Of the frame with that camera, seen through the window.
   [[nodiscard]] Intrinsics camera(const Intrinsics& frame) const;
 
+  /// Where a place of the frame is in the window.
+  [[nodiscard]] Eigen::Vector2f place_of(const Eigen::Vector2f& p) const;
+
   /// Brings what was traced in the window back to the pixels of a frame of that size: samples again
   /// about a pixel apart, widths in the frame's pixels.
   void restore(Traversals& traversals, const cv::Size& frame) const;
@@ -44,6 +47,12 @@ class Rescaled {
  public:
   /// Views into this object.
   [[nodiscard]] Frame frame() const;
+
+  /// Pixels of the copy for each of the original, and where a place of the original is in it.
+  [[nodiscard]] float scale() const { return window_.scale; }
+  [[nodiscard]] Eigen::Vector2f place_of(const Eigen::Vector2f& p) const {
+    return window_.place_of(p);
+  }
 
   /// Brings what was traced in the copy back to the pixels of the original.
   void restore(Traversals& traversals) const { window_.restore(traversals, original_); }

@@ -5,7 +5,9 @@
 #include "canvas.hpp"
 #include "path/bonds.hpp"
 #include "path/strands.hpp"
+#include "path/window.hpp"
 #include "support/painted_field.hpp"
+#include "support/peak_memory.hpp"
 
 namespace flowdlo::path {
 namespace {
@@ -202,6 +204,54 @@ TEST(StrandReading, OfSeveralRopesALinkBelowAnotherOneCostsWhatItsBendDoes) {
   EXPECT_LT(cost(1, 2), 0.2F);
   EXPECT_GT(cost(1, 3), 2);  // back over its own other end
   EXPECT_EQ(cost(1, 2), cost(2, 1));
+}
+
+/// A rope 60 px wide through a frame too large to be traced as it is, and its axis.
+struct LargeFrame {
+  static constexpr float kWidth_px = 60;
+  test::Canvas canvas{3600, 3000};
+  field::Axes axes;
+
+  LargeFrame() {
+    const test::Curve corners = {{100, 150}, {3500, 150}, {3500, 2850}, {300, 2850}};
+    canvas.stroke(corners, static_cast<int>(kWidth_px));
+    field::AxisLine line;
+    line.tips[0] = line.tips[1] = 1;
+    for (std::size_t i = 1; i < corners.size(); ++i) {
+      const auto place = [](const cv::Point& p) {
+        return Eigen::Vector2f(static_cast<float>(p.x), static_cast<float>(p.y));
+      };
+      const Axis side = straight_axis(place(corners[i - 1]), place(corners[i]));
+      line.points_px.insert(line.points_px.end(), side.begin(), side.end());
+    }
+    axes.lines.push_back(line);
+    axes.width_px = kWidth_px;
+  }
+};
+
+TEST(StrandReading, OfALargeMaskIsTheFramesAgain) {
+  const LargeFrame large;
+  ASSERT_GT(reduction_of(bounding_box(large.canvas.frame())), 1);
+  const auto traced = trace_strands(large.canvas.frame(), large.axes);
+  ASSERT_TRUE(traced) << traced.error().message;
+  EXPECT_NEAR(traced->rope_width_px, LargeFrame::kWidth_px, 4);
+  const Path& best = traced->ranked.front();
+  EXPECT_TRUE(joins(best, {100, 150}, {300, 2850}));
+  EXPECT_NEAR(static_cast<float>(best.points_px.size()), 3400 + 2700 + 3200, 200);
+  const auto ropes = trace_ropes(large.canvas.frame(), large.axes, 0);
+  ASSERT_TRUE(ropes) << ropes.error().message;
+  ASSERT_EQ(ropes->ropes.size(), 1U);
+  EXPECT_TRUE(joins(ropes->ropes.front(), {100, 150}, {300, 2850}));
+}
+
+TEST(StrandReading, OfALargeMaskTakesNoMoreMemoryThanItsReductionDoes) {
+  if (test::kSanitized) GTEST_SKIP() << "memory is not ours alone";
+  const LargeFrame large;
+  const Frame frame = large.canvas.frame();
+  const double megapixels = static_cast<double>(frame.width) * frame.height / 1e6;
+  constexpr double kBytesPerPixel = 8;  // 5 of them copies of depth and mask as they are
+  EXPECT_LT(test::peak_growth_mb([&] { (void)trace_strands(frame, large.axes); }),
+            kBytesPerPixel * megapixels);
 }
 
 }  // namespace

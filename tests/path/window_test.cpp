@@ -34,6 +34,16 @@ TEST(Window, PixelCentresStayWhereTheyAre) {  // Eq. (2.2)
   EXPECT_LT((traced.ranked[0].points_px[1] - Vector2f(91, 60)).norm(), 1e-4F);
 }
 
+TEST(Window, APlaceInItIsRestoredToWhereItWas) {
+  const Vector2f p(61.5F, 47.25F);
+  for (const float scale : {2.0F, 1.0F, 0.5F}) {
+    const path::Window window{{40, 30, 100, 80}, scale};
+    auto traced = one({window.place_of(p), window.place_of(p + Vector2f(8, 0))}, {0, 0});
+    window.restore(traced, {640, 480});
+    EXPECT_LT((traced.ranked[0].points_px.front() - p).norm(), 1e-4F) << scale;
+  }
+}
+
 TEST(Window, EnlargedSamplesAreThinnedOutAndEndsKept) {
   auto traced = one({{0, 0}, {1, 0}, {2, 0}, {3, 0}, {4, 0}, {5, 0}}, {0, 0, 1, 1, 0, 0});
   path::Window{{10, 20, 50, 50}, 2}.restore(traced, {640, 480});

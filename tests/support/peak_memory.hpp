@@ -6,6 +6,19 @@
 
 namespace flowdlo::test {
 
+/// Whether a sanitizer keeps what is freed, so that memory is not the tested code's alone.
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+inline constexpr bool kSanitized = true;
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
+inline constexpr bool kSanitized = true;
+#else
+inline constexpr bool kSanitized = false;
+#endif
+#else
+inline constexpr bool kSanitized = false;
+#endif
+
 /// MB that /proc/self/status says of `what`: VmRSS now, VmHWM at most since it was last reset.
 inline double status_mb(const std::string& what) {
   std::ifstream status("/proc/self/status");
