@@ -58,7 +58,7 @@ class Gap {
                      [](const Attempt& a, const Attempt& b) { return a.cost < b.cost; });
     for (const Attempt& attempt : attempts) {
       if (attempt.cost >= std::min(most, least_)) break;
-      accept(attempt);
+      accept(attempt, most);
     }
     return least_;
   }
@@ -117,11 +117,12 @@ class Gap {
     return attempt;
   }
 
-  // Whether the attempt is the best so far, depths and all.
-  bool accept(const Attempt& attempt) {
-    if (attempt.cost >= least_) return false;
-    const float cost = attempt.cost + open_cost(attempt.cubic, attempt.steps);
-    if (cost >= least_) return false;
+  // Whether the attempt is the best so far and below `most`, depths and all.
+  bool accept(const Attempt& attempt, float most = std::numeric_limits<float>::max()) {
+    const float limit = std::min(most, least_);
+    if (attempt.cost >= limit) return false;
+    const float cost = cost_below(limit, attempt);
+    if (cost >= limit) return false;
     least_ = cost;
     leaves_ = attempt.leaves;
     enters_ = attempt.enters;
@@ -136,18 +137,26 @@ class Gap {
     return turn * turn;
   }
 
-  [[nodiscard]] float open_cost(const Cubic& cubic,
-                                const std::array<float, kSamples>& steps) const {
-    if (from_.depth_m <= 0 || to_.depth_m <= 0) return 0;
+  // What the attempt costs, depths and all; where that is `limit` or more, no less than `limit`.
+  [[nodiscard]] float cost_below(float limit, const Attempt& attempt) const {
+    if (from_.depth_m <= 0 || to_.depth_m <= 0) return attempt.cost;
     float open_px = 0;
-    for (int i = 0; i < kSamples; ++i) {
+    float cost = attempt.cost;
+    for (int i = 0; i < kSamples && cost < limit; ++i) {
       const float t = (static_cast<float>(i) + 0.5F) / kSamples;
-      const Vector2f p = cubic.at(t);
+      const Vector2f p = attempt.cubic.at(t);
       const float rope_m = (1 - t) * from_.depth_m + t * to_.depth_m;
       const bool open = cover_.masked(p) ? cover_.rope_depth(p) > rope_m + kBelow_m
                                          : cover_.at(p, rope_m) == Sight::kOpen;
-      if (open) open_px += steps[i];
+      if (!open) continue;
+      open_px += attempt.steps[i];
+      cost = attempt.cost + open_cost(open_px);
     }
+    return cost;
+  }
+
+  // Of so many pixels where the background shows.
+  [[nodiscard]] float open_cost(float open_px) const {
     return kOpenCost * (1 - std::exp(-open_px / (kOpenWidths * scale_px_))) +
            kSlitCost * (1 - std::exp(-open_px / (kSlitWidths * scale_px_)));
   }
