@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <filesystem>
+#include <fstream>
 #include <future>
 #include <stdexcept>
 #include <string>
@@ -146,6 +148,52 @@ TEST_P(SameBits, AfterAFrameThatNeedsMoreMemory) {
 
 INSTANTIATE_TEST_SUITE_P(On, SameBits, ::testing::Values("cpu", "vulkan"),
                          [](const auto& device) { return std::string(device.param); });
+
+/// How many threads of this process Mesa's CPU driver started: it names them after itself.
+int driver_threads() {
+  int count = 0;
+  for (const auto& task : std::filesystem::directory_iterator("/proc/self/task")) {
+    std::ifstream file(task.path() / "comm");
+    std::string name;
+    std::getline(file, name);
+    count += name.starts_with("llvmpipe") ? 1 : 0;
+  }
+  return count;
+}
+
+/// An estimator for which Mesa's CPU driver has that many threads: it asks LP_NUM_THREADS when a
+/// device is opened.
+Estimator make_on_lavapipe(const Config& config, int threads) {
+  const char* const outside = std::getenv("LP_NUM_THREADS");
+  const std::string before = outside == nullptr ? "" : outside;
+  ::setenv("LP_NUM_THREADS", std::to_string(threads).c_str(), 1);
+  Estimator estimator = make(config);
+  if (outside == nullptr) {
+    ::unsetenv("LP_NUM_THREADS");
+  } else {
+    ::setenv("LP_NUM_THREADS", before.c_str(), 1);
+  }
+  return estimator;
+}
+
+TEST(SameBitsOfLavapipe, OnOneToEightThreadsOfItsOwn) {
+  const Config config = config_on("vulkan");
+  auto made = Estimator::create(config);
+  if (!made && made.error().code == ErrorCode::kNoDevice) GTEST_SKIP() << made.error().message;
+  ASSERT_TRUE(made) << made.error().message;
+  if (made->device().find("llvmpipe") == std::string::npos) GTEST_SKIP() << made->device();
+  const Frames frames;
+  const std::vector<EstimateBits> first{bits_of(*made, frames[0]), bits_of(*made, frames[1])};
+  const int others = driver_threads();
+  for (int threads = 1; threads <= kMostThreads; ++threads) {
+    auto estimator = make_on_lavapipe(config, threads);
+    ASSERT_EQ(driver_threads() - others, threads);
+    for (int i = 0; i < std::max(Frames::kCount, repeats() / kMostThreads); ++i) {
+      ASSERT_EQ(bits_of(estimator, frames[i]), first[static_cast<std::size_t>(i) % Frames::kCount])
+          << threads << " threads, frame " << i;
+    }
+  }
+}
 
 TEST(SameBitsAfterALostDevice, OnTheNextEstimator) {
   const Frames frames;
