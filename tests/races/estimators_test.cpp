@@ -27,7 +27,7 @@ using testing::RingFrame;
 constexpr int kEstimators = 8;
 constexpr int kFrames = 2;  // that each sees
 
-/// A crew of two and further readings aside: all the threads that an estimator ever starts.
+/// A crew of two and further readings aside, no strand field.
 Config busy(const std::string& device) {
   return {.weights = FLOWDLO_WEIGHTS,
           .device = device,
@@ -106,6 +106,19 @@ TEST(EightEstimators, OneAThreadOnVulkanGiveTheBitsOfOneAlone) {
   }
   ASSERT_TRUE(first) << first.error().message;
   expect_the_bits_of_one_alone(busy("vulkan"));
+}
+
+/// The strand field is asked on a thread beside the crew's: all that an estimator ever starts.
+TEST(OneEstimator, AsksTheStrandFieldBesideTheModel) {
+  const RingFrame ring;
+  Config config = busy("cpu");
+  config.field_weights = FLOWDLO_FIELD_WEIGHTS;
+  auto estimator = make(config);
+  const EstimateBits before = bits_of(estimator, ring.frame());
+  const auto estimate = estimator.estimate(ring.frame());
+  ASSERT_TRUE(estimate) << estimate.error().message;
+  EXPECT_GT(estimate->readings, 1) << "the field is asked where there is doubt";
+  EXPECT_EQ(bits_of(estimator, ring.frame()), before);
 }
 
 TEST(OneEstimator, GoesFromThreadToThread) {
