@@ -199,10 +199,10 @@ void open_rings(Graph& graph, const Region& region) {
       segment.points_px = passed_twice(ring, *ends);
       segment.length_px = length_of(segment.points_px);
       segment.opened = true;
-    } else if (const auto ends = notch(ring)) {
-      std::rotate(segment.points_px.begin(), segment.points_px.begin() + ends->at,
+    } else if (const auto touch = notch(ring)) {
+      std::rotate(segment.points_px.begin(), segment.points_px.begin() + touch->at,
                   segment.points_px.end());
-      segment.opened = ends->deep >= kNotchOfEnds;
+      segment.opened = touch->deep >= kNotchOfEnds;
     }
   }
 }

@@ -32,6 +32,7 @@ using flowdlo::lab::HostileMask;
 struct Options {
   std::string only;
   bool here = false;
+  bool fast = false;
   fs::path weights;
   fs::path command;
   fs::path scratch = fs::temp_directory_path() / "flowdlo_hostile";
@@ -88,8 +89,9 @@ flowdlo::FrameFolder frame_of(const HostileMask& mask) {
 
 /// `--here`: measures masks in this process, and an ordinary frame of their size before each size.
 int measure(const Options& options, const std::vector<HostileMask>& masks) {
-  auto estimator =
-      flowdlo::Estimator::create({.weights = options.weights, .device = "cpu", .threads = 1});
+  const auto quality = options.fast ? flowdlo::Quality::kFast : flowdlo::Quality::kFull;
+  auto estimator = flowdlo::Estimator::create(
+      {.weights = options.weights, .device = "cpu", .quality = quality, .threads = 1});
   if (!estimator) {
     fmt::print(stderr, "{}\n", estimator.error().message);
     return 1;
@@ -110,6 +112,12 @@ int measure(const Options& options, const std::vector<HostileMask>& masks) {
   return 0;
 }
 
+/// What the library's process and the command are told alike.
+void add_model(const Options& options, std::vector<std::string>& line) {
+  if (!options.weights.empty()) line.insert(line.end(), {"--weights", options.weights});
+  if (options.fast) line.insert(line.end(), {"--quality", "fast"});
+}
+
 /// The mask's frame through the command, on one thread.
 std::string command_cells(const Options& options, const HostileMask& mask) {
   if (options.command.empty()) return "";
@@ -120,7 +128,7 @@ std::string command_cells(const Options& options, const HostileMask& mask) {
   std::vector<std::string> line{
       options.command, "estimate", folder,      "--out", options.scratch / "out",
       "--device",      "cpu",      "--threads", "1",     "--quiet"};
-  if (!options.weights.empty()) line.insert(line.end(), {"--weights", options.weights});
+  add_model(options, line);
   const Run took = run(std::move(line), options.limit_s);
   std::error_code ignored;
   fs::remove_all(options.scratch, ignored);
@@ -137,7 +145,7 @@ int report(const Options& options, const char* program, const std::vector<Hostil
   for (const HostileMask& mask : masks) {
     std::vector<std::string> line{program,     "--here",   "--only",
                                   mask.name(), "--rounds", std::to_string(options.rounds)};
-    if (!options.weights.empty()) line.insert(line.end(), {"--weights", options.weights});
+    add_model(options, line);
     Run took = run(std::move(line), options.limit_s);
     if (took.status != 0) {
       took.output = fmt::format("| {} | > {} | | {:.0f} | stopped |\n", mask.name(),
@@ -158,6 +166,10 @@ int main(int count, char** values) {
   app.add_option("--only", options.only, "Masks whose name holds this");
   app.add_flag("--here", options.here, "Measure in this process, without the table's head");
   app.add_option("--weights", options.weights)->check(CLI::ExistingFile);
+  app.add_option_function<std::string>(
+         "--quality", [&](const std::string& quality) { options.fast = quality == "fast"; },
+         "As flowdlo has it")
+      ->check(CLI::IsMember({"full", "fast"}));
   app.add_option("--command", options.command, "Measure this flowdlo as well")
       ->check(CLI::ExistingFile);
   app.add_option("--scratch", options.scratch, "Frames are written below it");
