@@ -15,10 +15,10 @@ namespace flowdlo::estimator {
 class RopeView {
  public:
   /// The mask is the rope's own pixels and those where it runs below another one: these have no
-  /// depth. `frame` lives on.
+  /// depth. The images of `frame` live on.
   RopeView(const Parted& parted, std::size_t rope, const Frame& frame);
 
-  /// Views into this object and into the frame given.
+  /// Views into this object and into the images of the frame given.
   [[nodiscard]] Frame frame() const;
 
   /// The rope's way through it, as it was found among the others.
@@ -27,7 +27,7 @@ class RopeView {
  private:
   path::Path path_;
   float width_px_;
-  const Frame& original_;
+  Frame original_;
   std::vector<std::uint8_t> mask_;
   std::vector<float> depth_m_;
 };
