@@ -5,6 +5,7 @@
 
 #include "field/axis_line.hpp"
 #include "field/strand_field.hpp"
+#include "field/view.hpp"
 
 namespace flowdlo::field {
 
@@ -12,6 +13,7 @@ namespace flowdlo::field {
 struct Axes {
   std::vector<AxisLine> lines;  ///< the clearest first; points less than a pixel of the field apart
   float width_px = 0;           ///< of the rope
+  FieldView view{};             ///< what the field shows beside the lines
 };
 
 [[nodiscard]] Axes axes(const StrandField& seen);

@@ -1,0 +1,79 @@
+#include "field/view.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "field/channel.hpp"
+#include "field/surface.hpp"
+
+namespace flowdlo::field {
+namespace {
+
+using Eigen::Vector2f;
+
+// Pixels of the region, in which a rope is 8 px wide.
+constexpr std::array kBeside_px{-2.0F, -1.0F, 0.0F, 1.0F, 2.0F};  // a drawn curve lies off the axis
+constexpr int kTipFrom_px = -2;                                   // a tip lies ahead of a line's
+constexpr int kTipTo_px = 7;                                      // end, which is cut where it
+constexpr int kTipBeside_px = 3;                                  // bends to another strand
+
+// [0, 1] how much `along` is the direction with the cosine and sine of twice its angle: 0 from 45
+// degrees on.
+float sameness(float cosine, float sine, const Vector2f& along) {
+  const float length = std::hypot(cosine, sine);
+  if (length < 1e-3F) return 0;
+  const float twice = along.x() * along.x() - along.y() * along.y();
+  return std::max(0.0F, (cosine * twice + sine * 2 * along.x() * along.y()) / length);
+}
+
+}  // namespace
+
+FieldView::FieldView(const StrandField& seen)
+    : channels_(seen.channels),
+      scale_(seen.region.scale),
+      origin_(seen.region.to_region(Vector2f(0, 0))) {}
+
+FieldView FieldView::from_copy(const Vector2f& origin, float scale) const {
+  FieldView view = *this;
+  view.scale_ = scale_ / scale;
+  view.origin_ = origin_ - view.scale_.cwiseProduct(origin);
+  return view;
+}
+
+float FieldView::shown(const Vector2f& p, const Vector2f& along, bool below_only) const {
+  const Surface surface(channels_);
+  const Vector2f middle = to_region(p);
+  const Vector2f across(-along.y(), along.x());
+  float most = 0;
+  for (const float beside : kBeside_px) {
+    const Vector2f q = middle + beside * across;
+    const float top = below_only ? 0 : surface.at(q, kCentre);
+    if (top > most) {
+      most = std::max(most, top * sameness(surface.at(q, kCos), surface.at(q, kSin), along));
+    }
+    const float below = surface.at(q, kUnder);
+    if (below > most) {
+      most = std::max(most,
+                      below * sameness(surface.at(q, kUnderCos), surface.at(q, kUnderSin), along));
+    }
+  }
+  return std::min(1.0F, most);
+}
+
+float FieldView::tip_ahead(const Vector2f& p, const Vector2f& outward) const {
+  const Surface surface(channels_);
+  const Vector2f at = to_region(p);
+  const Vector2f across(-outward.y(), outward.x());
+  float most = 0;
+  for (int ahead = kTipFrom_px; ahead <= kTipTo_px; ++ahead) {
+    for (int beside = -kTipBeside_px; beside <= kTipBeside_px; ++beside) {
+      const Vector2f q =
+          at + static_cast<float>(ahead) * outward + static_cast<float>(beside) * across;
+      most = std::max(most, surface.at(q, kTip));
+    }
+  }
+  return std::min(1.0F, most);
+}
+
+}  // namespace flowdlo::field

@@ -1,0 +1,40 @@
+// FieldView: a strand field as it is asked from the pixels of a frame.
+#pragma once
+
+#include <Eigen/Core>
+#include <opencv2/core.hpp>
+
+#include "field/strand_field.hpp"
+
+namespace flowdlo::field {
+
+/// Shares the field's channels. Places are pixels of the frame, directions unit vectors.
+class FieldView {
+ public:
+  /// Shows nothing anywhere.
+  FieldView() = default;
+  explicit FieldView(const StrandField& seen);
+
+  /// The same as it is asked from a copy of the frame with `scale` pixels for each of the frame's,
+  /// in which the frame's (0, 0) lies at `origin`.
+  [[nodiscard]] FieldView from_copy(const Eigen::Vector2f& origin, float scale) const;
+
+  /// [0, 1] how clearly a strand runs by `p` along `along`: one that lies below another, or where
+  /// not `below_only` the one on top.
+  [[nodiscard]] float shown(const Eigen::Vector2f& p, const Eigen::Vector2f& along,
+                            bool below_only) const;
+
+  /// [0, 1] how clearly the rope's own end shows within a width ahead of `p`, towards `outward`.
+  [[nodiscard]] float tip_ahead(const Eigen::Vector2f& p, const Eigen::Vector2f& outward) const;
+
+ private:
+  [[nodiscard]] Eigen::Vector2f to_region(const Eigen::Vector2f& p) const {
+    return scale_.cwiseProduct(p) + origin_;
+  }
+
+  cv::Mat channels_;                    // [height, width, kChannels] of the region; or empty
+  Eigen::Vector2f scale_{1.0F, 1.0F};   // pixels of the region a pixel of the frame
+  Eigen::Vector2f origin_{0.0F, 0.0F};  // where the frame's (0, 0) is in the region
+};
+
+}  // namespace flowdlo::field

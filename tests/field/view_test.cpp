@@ -1,0 +1,85 @@
+#include "field/view.hpp"
+
+#include <gtest/gtest.h>
+
+#include "support/painted_field.hpp"
+
+namespace flowdlo::field {
+namespace {
+
+using Eigen::Vector2f;
+using testing::painted_field;
+using testing::show_tip;
+using testing::straight_axis;
+
+/// A rope from left to right along v = 60, its end at u = 140, and one that passes below it along
+/// u = 80; magnified twice from a frame in which its region begins at (10, 20).
+StrandField seen() {
+  StrandField field;
+  field.region = {{10, 20, 80, 60}, {160, 120}, {2, 2}};
+  field.channels = painted_field({straight_axis({20, 60}, {140, 60})}, {160, 120});
+  show_tip(field.channels, {140, 60});
+  for (int v = 56; v <= 64; ++v) {
+    for (int u = 78; u <= 82; ++u) {
+      float* const at = field.channels.ptr<float>(v) + u * kChannels;
+      at[kUnder] = 1;
+      at[kUnderCos] = -1;
+      at[kUnderSin] = 0;
+    }
+  }
+  return field;
+}
+
+TEST(FieldView, AStrandShowsAlongItselfAndNotAcross) {
+  const StrandField field = seen();
+  const FieldView view(field);
+  const Vector2f on_it = field.region.to_frame({50, 60});
+  EXPECT_GT(view.shown(on_it, {1, 0}, false), 0.9F);
+  EXPECT_GT(view.shown(on_it, {-1, 0}, false), 0.9F);
+  EXPECT_LT(view.shown(on_it, {0, 1}, false), 0.01F);
+  EXPECT_LT(view.shown(on_it, {1, 0}, true), 0.01F) << "it lies on top";
+}
+
+TEST(FieldView, WhatLiesBelowShowsAlongItself) {
+  const StrandField field = seen();
+  const FieldView view(field);
+  const Vector2f crossing = field.region.to_frame({80, 60});
+  EXPECT_GT(view.shown(crossing, {0, 1}, true), 0.9F);
+  EXPECT_LT(view.shown(crossing, {1, 0}, true), 0.01F);
+  EXPECT_GT(view.shown(crossing, {1, 0}, false), 0.9F);
+}
+
+TEST(FieldView, NothingShowsFarFromAnyStrandOrWithoutAField) {
+  const StrandField field = seen();
+  EXPECT_LT(FieldView(field).shown(field.region.to_frame({50, 100}), {1, 0}, false), 0.01F);
+  EXPECT_EQ(FieldView(field).shown({-500, 900}, {1, 0}, false), 0);
+  EXPECT_EQ(FieldView().shown({10, 10}, {1, 0}, false), 0);
+  EXPECT_EQ(FieldView().tip_ahead({10, 10}, {1, 0}), 0);
+}
+
+TEST(FieldView, ATipShowsAheadOfALineThatEndsBeforeIt) {
+  const StrandField field = seen();
+  const FieldView view(field);
+  const Vector2f before = field.region.to_frame({134, 60});
+  EXPECT_GT(view.tip_ahead(before, {1, 0}), 0.9F);
+  EXPECT_LT(view.tip_ahead(field.region.to_frame({120, 60}), {-1, 0}), 0.1F);
+}
+
+TEST(FieldView, FromACopyOfTheFrameItShowsTheSame) {
+  const StrandField field = seen();
+  const FieldView view(field);
+  constexpr float kScale = 0.25F;
+  const Vector2f origin(-3.5F, 1.25F);
+  const FieldView copy = view.from_copy(origin, kScale);
+  for (const Vector2f& at : {Vector2f(50, 60), Vector2f(80, 61), Vector2f(138, 58)}) {
+    const Vector2f p = field.region.to_frame(at);
+    const Vector2f q = kScale * p + origin;
+    for (const bool below : {false, true}) {
+      EXPECT_NEAR(copy.shown(q, {0.8F, 0.6F}, below), view.shown(p, {0.8F, 0.6F}, below), 1e-3F);
+    }
+    EXPECT_NEAR(copy.tip_ahead(q, {1, 0}), view.tip_ahead(p, {1, 0}), 1e-3F);
+  }
+}
+
+}  // namespace
+}  // namespace flowdlo::field
