@@ -323,7 +323,7 @@ class Builder {
   [[nodiscard]] float most_for(int a, int b) const {
     const float covers_px =
         std::max(strands_.list[a / 2].covers_px, strands_.list[b / 2].covers_px);
-    return std::max(kMostGapCost, kLeftOutCost * covers_px / strands_.scale_px);
+    return std::max(kMostGapCost, strands_.left_out_cost * covers_px / strands_.scale_px);
   }
 
   const Strands& strands_;

@@ -8,9 +8,6 @@
 
 namespace flowdlo::path {
 
-/// What a path pays for each width of length that it leaves out.
-inline constexpr float kLeftOutCost = 1.5F;
-
 struct Bond {
   int to = -1;       ///< the end that the path enters next
   float cost = 0;    ///< dimensionless; a right angle costs about 2.5

@@ -20,8 +20,15 @@ constexpr float kProbeStepPx = 1.5F;
 
 }  // namespace
 
-Cover::Cover(const Region& region, const Frame& frame, float width_px)
-    : region_(region), frame_(frame), width_px_(width_px) {}
+Cover::Cover(const Region& region, const Frame& frame, float width_px, const field::FieldView* seen)
+    : region_(region), frame_(frame), width_px_(width_px), seen_(seen) {}
+
+float Cover::shown(const Vector2f& p, const Vector2f& along, bool below_only) const {
+  if (seen_ == nullptr) return 0;
+  const Vector2f offset(static_cast<float>(region_.offset_px.x),
+                        static_cast<float>(region_.offset_px.y));
+  return seen_->shown(p + offset, along, below_only);
+}
 
 bool Cover::masked(const Vector2f& p) const { return lit(region_.mask, p); }
 

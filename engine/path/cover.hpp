@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <cstdint>
 
+#include "field/view.hpp"
 #include "flowdlo/frame.hpp"
 #include "path/region.hpp"
 
@@ -19,7 +20,13 @@ enum class Sight : std::uint8_t {
 /// Borrows both arguments. Places are in crop coordinates.
 class Cover {
  public:
-  Cover(const Region& region, const Frame& frame, float width_px);
+  /// `seen`, where a strand field was asked, lives on.
+  Cover(const Region& region, const Frame& frame, float width_px,
+        const field::FieldView* seen = nullptr);
+
+  /// As field::FieldView::shown; 0 without a field.
+  [[nodiscard]] float shown(const Eigen::Vector2f& p, const Eigen::Vector2f& along,
+                            bool below_only) const;
 
   /// What shows at `p`, where the rope's surface would be `rope_m` deep; 0: depth unknown.
   [[nodiscard]] Sight at(const Eigen::Vector2f& p, float rope_m) const;
@@ -48,6 +55,7 @@ class Cover {
   const Region& region_;
   const Frame& frame_;
   float width_px_;
+  const field::FieldView* seen_;
 };
 
 }  // namespace flowdlo::path

@@ -36,7 +36,7 @@ class Ends {
     }
     bonds_ = static_cast<int>(pairs_.size());
     for (int s = 0; s < static_cast<int>(strands.list.size()); ++s) {
-      pairs_.push_back({2 * s, 2 * s + 1, left_out_cost(strands.list[s], strands.scale_px)});
+      pairs_.push_back({2 * s, 2 * s + 1, left_out_cost(strands.list[s], strands)});
     }
   }
 

@@ -39,7 +39,7 @@ class Searcher {
     uncovered_.resize(n);
     bound_.resize(n);
     for (std::size_t s = 0; s < n; ++s) {
-      uncovered_[s] = left_out_cost(strands.list[s], strands.scale_px);
+      uncovered_[s] = left_out_cost(strands.list[s], strands);
       bound_[s] = uncovered_[s];
       for (int side = 0; side < 2; ++side) {
         const auto& list = bonds[2 * s + side];

@@ -8,6 +8,7 @@
 
 #include "geometry/polyline.hpp"
 #include "guard/guarded.hpp"
+#include "path/links.hpp"
 #include "path/midline.hpp"
 #include "path/ranked.hpp"
 #include "path/region.hpp"
@@ -128,12 +129,27 @@ std::vector<Stretch> cut_at_joins(const std::vector<Stretch>& stretches, float w
   return result;
 }
 
+// How much each end that is no tip yet looks like one.
+void see_tips(std::vector<Stretch>& stretches, const field::Axes& axes, const Region& region) {
+  const Vector2f offset(static_cast<float>(region.offset_px.x),
+                        static_cast<float>(region.offset_px.y));
+  for (Stretch& stretch : stretches) {
+    if (stretch.closed) continue;
+    for (float& tip : stretch.tips) {
+      const Vector2f out = direction_at_front(stretch.points_px, axes.width_px);
+      tip = std::max(tip, axes.view.tip_ahead(stretch.points_px.front() + offset, out));
+      std::reverse(stretch.points_px.begin(), stretch.points_px.end());
+    }
+  }
+}
+
 // The axes of a frame in a copy of it.
 field::Axes axes_in(const Reduced& copy, field::Axes axes) {
   axes.width_px *= copy.scale();
   for (field::AxisLine& line : axes.lines) {
     for (Vector2f& p : line.points_px) p = copy.place_of(p);
   }
+  axes.view = axes.view.from_copy(copy.place_of({0, 0}), copy.scale());
   return axes;
 }
 
@@ -154,13 +170,24 @@ Result<Answer> trace_reduced(const Frame& frame, const field::Axes& axes, const 
 
 }  // namespace
 
+Strands strands_of(const Frame& frame, const field::Axes& axes, const Region& region) {
+  auto stretches = cut_at_joins(stretches_of(axes, region), axes.width_px);
+  see_tips(stretches, axes, region);
+  Strands strands = make_strands(stretches, axes.width_px, region, frame);
+  strands.seen = &axes.view;
+  strands.left_out_cost = kLeftOutEnergy;
+  for (Strand& strand : strands.list) {
+    for (StrandEnd& end : strand.ends) end.end_cost = energy_of(stop_terms(end), kStopWeights);
+  }
+  return strands;
+}
+
 Result<Traversals> trace_strands(const Frame& frame, const field::Axes& axes,
                                  const TraceConfig& config) {
   const auto trace = [&](const Frame& seen, const field::Axes& lines) -> Result<Traversals> {
     const auto region = clean(seen);
     if (!region) return region.error();
-    return rank(make_strands(stretches_of(lines, *region), lines.width_px, *region, seen), *region,
-                seen, config);
+    return rank(strands_of(seen, lines, *region), *region, seen, config);
   };
   return trace_reduced<Traversals>(frame, axes, trace);
 }

@@ -6,6 +6,7 @@
 #include "flowdlo/frame.hpp"
 #include "flowdlo/result.hpp"
 #include "path/path.hpp"
+#include "path/strands.hpp"
 
 namespace flowdlo::path {
 
@@ -13,6 +14,9 @@ namespace flowdlo::path {
 /// kNoPath as `trace` does.
 [[nodiscard]] Result<Traversals> trace_strands(const Frame& frame, const field::Axes& axes,
                                                const TraceConfig& config = {});
+
+/// The strands that a network sees in `frame`, cleaned into `region`; borrows `axes`.
+[[nodiscard]] Strands strands_of(const Frame& frame, const field::Axes& axes, const Region& region);
 
 /// As `trace_ropes`, of the axes that a network sees in the frame.
 [[nodiscard]] Result<RopePaths> trace_ropes(const Frame& frame, const field::Axes& axes, int ropes);

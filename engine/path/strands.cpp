@@ -13,6 +13,7 @@
 #include "path/crossings.hpp"
 #include "path/midline.hpp"
 #include "path/rim.hpp"
+#include "path/walk_costs.hpp"
 
 namespace flowdlo::path {
 namespace {
@@ -198,6 +199,7 @@ Strand make_strand(const Segment& segment, const Graph& graph, const Crossings& 
       extend_tip(points, aside, region, sizes.width_px, sizes.scale_px);
     }
     measure_end(points, region, frame, cover, sizes.scale_px, end);
+    end.end_cost = end.cut ? kEndAtCut : 0;
     std::reverse(points.begin(), points.end());
     std::reverse(aside.begin(), aside.end());
   }
@@ -269,10 +271,12 @@ Strands make_strands(const std::vector<Stretch>& stretches, float width_px, cons
     for (int side = 0; side < 2; ++side) {
       StrandEnd& end = strand.ends[side];
       measure_end(points, region, frame, cover, strands.scale_px, end);
-      end.end_cost = at_border(points.front(), region, frame, width_px)
+      end.tip_seen = stretch.tips[side];
+      end.end_cost = end.cut ? kEndAtCut
+                     : at_border(points.front(), region, frame, width_px)
                          ? 0
-                         : kEndUnseen * (1 - stretch.tips[side]);
-      end.link_cost = kLinkAtTip * stretch.tips[side];
+                         : kEndUnseen * (1 - end.tip_seen);
+      end.link_cost = kLinkAtTip * end.tip_seen;
       std::reverse(points.begin(), points.end());
     }
     strand.points_px = std::move(points);

@@ -5,9 +5,13 @@
 #include <array>
 #include <vector>
 
+#include "field/view.hpp"
 #include "path/graph.hpp"
 
 namespace flowdlo::path {
+
+/// What a path over the mask's own strands pays for each width of length that it leaves out.
+inline constexpr float kLeftOutCost = 1.5F;
 
 /// One end of a strand, outside the zone that a crossing or a tip distorts.
 struct StrandEnd {
@@ -19,8 +23,9 @@ struct StrandEnd {
   float curvature = 0;            ///< 1 / px, along `outward`; positive from x to y
   bool cut = false;               ///< right behind it something nearer hides the rope
   bool leaves = false;            ///< the image ends where it does
+  float tip_seen = 0;             ///< [0, 1] how much the strand field shows the rope's own end
   float end_cost = 0;             ///< what a path pays that ends here, where it is a tip
-  float link_cost = 0;            ///< and one that goes on from here, beside the link's own cost
+  float link_cost = 0;            ///< and one that goes on from here, beside the bond's own cost
   int crossing = -1;              ///< the crossing it runs into; -1: a tip
   int node = -1;                  ///< the graph's node there
   Eigen::Vector2f node_px{0, 0};  ///< and where it is
@@ -49,10 +54,11 @@ struct Bridge {
 struct Strands {
   std::vector<Strand> list;
   std::vector<Bridge> bridges;
-  bool apart =
-      false;  ///< a strand field's: they meet nowhere, a crossing is a gap in the lower one
+  bool apart = false;  ///< a strand field's: a crossing is a gap in the lower one
   float width_px = 1;  ///< the rope's
   float scale_px = 1;  ///< the width, but no less than four pixels: what lengths are measured in
+  float left_out_cost = kLeftOutCost;      ///< of each `scale_px` of length that a path leaves out
+  const field::FieldView* seen = nullptr;  ///< what the strand field shows beside them, or null
 
   [[nodiscard]] const StrandEnd& end(int id) const { return list[id / 2].ends[id % 2]; }
 };

@@ -12,12 +12,11 @@ inline constexpr float kLooseTip = 1.0F;       ///< a branch left out though it 
 inline constexpr float kMinorWidths = 1.5F;    ///< strands below this do not make ways distinct
 
 [[nodiscard]] inline float stop_cost(const StrandEnd& end) {
-  if (!end.tip()) return kEndAtCrossing;
-  return end.cut ? kEndAtCut : end.end_cost;
+  return end.tip() ? end.end_cost : kEndAtCrossing;
 }
 
-[[nodiscard]] inline float left_out_cost(const Strand& strand, float scale_px) {
-  float cost = kLeftOutCost * strand.covers_px / scale_px;
+[[nodiscard]] inline float left_out_cost(const Strand& strand, const Strands& strands) {
+  float cost = strands.left_out_cost * strand.covers_px / strands.scale_px;
   const bool loose = strand.ends[0].tip() != strand.ends[1].tip();
   if (loose) cost += kLooseTip;
   return cost;

@@ -19,6 +19,7 @@
 #include "field/axes.hpp"
 #include "field/channel.hpp"
 #include "field/strand_field.hpp"
+#include "geometry/polyline.hpp"
 #include "path/strand_reading.hpp"
 #include "strand/measure.hpp"
 #include "strand/patch.hpp"
@@ -61,9 +62,11 @@ double ms_since(std::chrono::steady_clock::time_point begin) {
 }
 
 /// What the field shows, nearness to axes red, tips green, strands below blue; the lines that are
-/// followed in it, in colours that change; and the best path, thin, from blue to yellow.
+/// followed in it, in colours that change; the truth, dotted in white; and the best path, thin,
+/// from blue to yellow.
 void draw(const std::filesystem::path& file, const field::StrandField& seen,
-          const flowdlo::path::Path& path) {
+          const flowdlo::path::Path& path, const flowdlo::Centerline& truth,
+          const flowdlo::Intrinsics& camera) {
   constexpr float kTimes = 2;
   cv::Mat picture(seen.channels.size(), CV_8UC3);
   for (int v = 0; v < picture.rows; ++v) {
@@ -89,6 +92,14 @@ void draw(const std::filesystem::path& file, const field::StrandField& seen,
     }
     cv::circle(picture, place(line.points_px.front()), 4, color, 1);
     cv::circle(picture, place(line.points_px.back()), 4, color, 1);
+  }
+  std::vector<Eigen::Vector2f> nodes;
+  for (const flowdlo::Point3& node : truth) {
+    nodes.emplace_back(camera.fx * node.x / node.z + camera.cx,
+                       camera.fy * node.y / node.z + camera.cy);
+  }
+  for (const Eigen::Vector2f& p : flowdlo::geometry::resample(nodes, 400)) {
+    cv::circle(picture, place(seen.region.to_region(p)), 1, cv::Scalar::all(255), cv::FILLED);
   }
   for (std::size_t i = 1; i < path.points_px.size(); ++i) {
     const double t = static_cast<double>(i) / static_cast<double>(path.points_px.size());
@@ -132,7 +143,7 @@ flowdlo::Result<Outcome> measure(const Options& options, std::uint64_t index,
   outcome.path_ms = ms_since(begin);
   if (paths && !options.pictures.empty()) {
     draw(options.pictures / fmt::format("{}_{}.png", index, outcome.scenario), *seen,
-         paths->ranked.front());
+         paths->ranked.front(), truth, frame.intrinsics);
   }
   outcome.mask_cm = error_cm(of_mask.front().prior.nodes, truth);
   outcome.field_cm = of_field.empty() ? 99 : error_cm(of_field.front().prior.nodes, truth);

@@ -90,7 +90,7 @@ TEST(RopeSets, AShortStrandIsLeftOutAndALongOneIsARope) {
   const auto with_speck = search_sets(strands, Bonds(4), 0, 1);
   ASSERT_FALSE(with_speck.empty());
   EXPECT_EQ(with_speck[0].ways.size(), 1U);
-  EXPECT_FLOAT_EQ(with_speck[0].cost, kRopeCost + left_out_cost(strands.list[1], 10));
+  EXPECT_FLOAT_EQ(with_speck[0].cost, kRopeCost + left_out_cost(strands.list[1], strands));
   strands.list[1].covers_px = 60;
   EXPECT_EQ(search_sets(strands, Bonds(4), 0, 1).at(0).ways.size(), 2U);
 }

@@ -1,0 +1,47 @@
+// Energy: what a way through the strands that a field shows pays, term by term. Free of units: the
+// negative logarithm of how likely each choice is (up to what all choices share).
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+namespace flowdlo::path {
+
+/// Of a link from one strand's end to another's, drawn as a cubic; w: the rope's width, L: length.
+enum LinkTerm : std::size_t {
+  kLinkLong,     ///< log(1 + L / (3 w))
+  kLinkBend,     ///< log(1 + B / 0.1), B: L times the integral of (bend - the ends' own bend)^2
+  kLinkStump,    ///< the same, as far as one strand is a stump whose direction is hardly known
+  kLinkOpen,     ///< 1 - exp(-l / (0.3 w)), l: over which the background shows where a rope would
+  kLinkUnshown,  ///< 1 - exp(-l / (2 w)), l: over which the mask is set but no strand runs that way
+  kLinkTerms
+};
+using LinkTerms = std::array<float, kLinkTerms>;
+
+/// Of an end of the rope.
+enum StopTerm : std::size_t {
+  kStopStart,   ///< 1
+  kStopUnseen,  ///< how little it looks like a rope's end; 0 at the image's border
+  kStopBorder,  ///< 1 at the image's border
+  kStopTerms
+};
+using StopTerms = std::array<float, kStopTerms>;
+
+/// Fitted by `flowdlo_energy_fit` to the ends of strands in `wide` training scenes 3200000 to
+/// 3200899, of which the right one of all links and stopping is to be the likeliest.
+inline constexpr LinkTerms kLinkWeights{1.0F, 1.05F, 0.95F, 2.0F, 3.4F};
+inline constexpr StopTerms kStopWeights{3.8F, 4.2F, 1.3F};
+
+/// Of each width of a strand that a path leaves out. Chosen on `wide` training scenes 3000500 to
+/// 3000749 by `flowdlo_reading_report`: 1 is worse by 0.1 cm, 4 by 0.02.
+inline constexpr float kLeftOutEnergy = 2.5F;
+
+template <std::size_t Count>
+[[nodiscard]] float energy_of(const std::array<float, Count>& terms,
+                              const std::array<float, Count>& weights) {
+  float sum = 0;
+  for (std::size_t i = 0; i < Count; ++i) sum += weights[i] * terms[i];
+  return sum;
+}
+
+}  // namespace flowdlo::path

@@ -1,0 +1,97 @@
+#include "path/links.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace flowdlo::path {
+namespace {
+
+constexpr std::size_t kLinksAnEnd = 8;
+constexpr std::size_t kMostEnds = 96;
+constexpr float kKnownWidths = 3.0F;  // strands shorter than this are stumps
+constexpr float kMostEnergy = 16.0F;  // or what leaving out a longer strand costs
+
+struct Pair {
+  int from = 0;
+  int to = 0;
+  float least = 0;
+};
+
+// The ends of the longest strands that are no rings.
+std::vector<int> open_ends(const Strands& strands) {
+  std::vector<int> ends;
+  for (int id = 0; id < static_cast<int>(2 * strands.list.size()); ++id) {
+    if (!strands.list[id / 2].ring) ends.push_back(id);
+  }
+  if (ends.size() <= kMostEnds) return ends;
+  std::stable_sort(ends.begin(), ends.end(), [&](int a, int b) {
+    return strands.list[a / 2].covers_px > strands.list[b / 2].covers_px;
+  });
+  ends.resize(kMostEnds);
+  return ends;
+}
+
+// No link costs more than leaving out what lies beyond it.
+float most_for(int a, int b, const Strands& strands) {
+  const float covers_px = std::max(strands.list[a / 2].covers_px, strands.list[b / 2].covers_px);
+  return std::max(kMostEnergy, strands.left_out_cost * covers_px / strands.scale_px);
+}
+
+}  // namespace
+
+StopTerms stop_terms(const StrandEnd& end) {
+  StopTerms terms{};
+  terms[kStopStart] = 1;
+  terms[kStopUnseen] = end.leaves ? 0 : 1 - end.tip_seen;
+  terms[kStopBorder] = end.leaves ? 1 : 0;
+  return terms;
+}
+
+Link link_between(int from, int to, const Strands& strands, const Cover& cover, float most) {
+  const auto shorter = static_cast<float>(
+      std::min(strands.list[from / 2].points_px.size(), strands.list[to / 2].points_px.size()));
+  const float trust = std::min(1.0F, shorter / (kKnownWidths * strands.scale_px));
+  return best_link(strands.end(from), strands.end(to), cover, strands.scale_px, trust, most);
+}
+
+std::vector<std::vector<Bond>> make_links(const Strands& strands, const Region& region,
+                                          const Frame& frame) {
+  const Cover cover(region, frame, strands.width_px, strands.seen);
+  const std::vector<int> ends = open_ends(strands);
+  std::vector<Pair> pairs;
+  for (std::size_t i = 0; i < ends.size(); ++i) {
+    for (std::size_t j = i + 1; j < ends.size(); ++j) {
+      if (ends[i] / 2 == ends[j] / 2) continue;
+      const float apart = (strands.end(ends[i]).point_px - strands.end(ends[j]).point_px).norm();
+      const float least = least_energy(apart, strands.scale_px);
+      if (least < most_for(ends[i], ends[j], strands)) pairs.push_back({ends[i], ends[j], least});
+    }
+  }
+  // The short ones first: most others then cost more than what is kept.
+  std::stable_sort(pairs.begin(), pairs.end(),
+                   [](const Pair& a, const Pair& b) { return a.least < b.least; });
+  std::vector<std::vector<Bond>> links(2 * strands.list.size());
+  const auto cheaper = [](const Bond& a, const Bond& b) {
+    return a.cost != b.cost ? a.cost < b.cost : a.to < b.to;
+  };
+  const auto kept = [&](int end) {
+    return links[end].size() < kLinksAnEnd ? std::numeric_limits<float>::max()
+                                           : links[end].back().cost;
+  };
+  for (const Pair& pair : pairs) {
+    const float most =
+        std::min(most_for(pair.from, pair.to, strands), std::max(kept(pair.from), kept(pair.to)));
+    if (pair.least >= most) continue;
+    const Link link = link_between(pair.from, pair.to, strands, cover, most);
+    if (link.energy >= most) continue;
+    for (const auto& [end, other] : {std::pair{pair.from, pair.to}, {pair.to, pair.from}}) {
+      auto& list = links[end];
+      const Bond bond{other, link.energy, true};
+      list.insert(std::upper_bound(list.begin(), list.end(), bond, cheaper), bond);
+      if (list.size() > kLinksAnEnd) list.pop_back();
+    }
+  }
+  return links;
+}
+
+}  // namespace flowdlo::path

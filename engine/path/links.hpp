@@ -1,0 +1,22 @@
+// Links: which ends of the strands that a field shows may be joined, and at what energy.
+#pragma once
+
+#include <vector>
+
+#include "path/bonds.hpp"
+#include "path/link.hpp"
+
+namespace flowdlo::path {
+
+/// [2 * strands] the links of each end, cheapest first; symmetric up to the cut at a few an end.
+[[nodiscard]] std::vector<std::vector<Bond>> make_links(const Strands& strands,
+                                                        const Region& region, const Frame& frame);
+
+/// The link between two ends, whatever it costs: what the weights are fitted to.
+[[nodiscard]] Link link_between(int from, int to, const Strands& strands, const Cover& cover,
+                                float most = std::numeric_limits<float>::max());
+
+/// What a path pays that ends there, and what that comes of.
+[[nodiscard]] StopTerms stop_terms(const StrandEnd& end);
+
+}  // namespace flowdlo::path
