@@ -21,7 +21,8 @@
 namespace flowdlo::estimator {
 namespace {
 
-constexpr std::size_t kOfEach = 2;  // hypotheses of a further reading
+constexpr std::size_t kOfEach = 2;   // hypotheses of a further reading of the mask,
+constexpr std::size_t kOfField = 4;  // and of the strand field
 constexpr double kSamePlace = 2;    // rope radii between the mean nodes of one and the same
 constexpr double kOddsScore = 1;    // score that makes a hypothesis e times as likely
 
@@ -35,8 +36,8 @@ using Reading = std::vector<Hypothesis>;  // what one reading brought forth, bes
 
 /// Reading made of paths; nothing where it fails.
 template <class Trace>
-Reading read_by(const Trace& trace, const Conditions& conditions, const Frame& frame,
-                weights::PriorKind prior_kind) {
+Reading read_by(const Trace& trace, std::size_t most, const Conditions& conditions,
+                const Frame& frame, weights::PriorKind prior_kind) {
   auto reading = guard::guarded("second look", [&]() -> Result<Reading> {
     const Result<path::Traversals> paths = trace();
     if (!paths) return paths.error();
@@ -47,7 +48,7 @@ Reading read_by(const Trace& trace, const Conditions& conditions, const Frame& f
     if (reading.error().code == ErrorCode::kOutOfMemory) throw std::bad_alloc();
     return {};
   }
-  if (reading->size() > kOfEach) reading->resize(kOfEach);
+  if (reading->size() > most) reading->resize(most);
   return *std::move(reading);
 }
 
@@ -60,7 +61,9 @@ Result<path::Traversals> trace_seen(field::Network& network, const Frame& frame,
     if (!seen) return seen.error();
     axes = field::axes(*seen);
   }
-  return path::trace_strands(frame, *axes, config);
+  auto paths = path::trace_strands(frame, *axes, config);
+  axes->view = {};  // the lines are enough from here on
+  return paths;
 }
 
 bool same_place(const Hypothesis& a, const Hypothesis& b, double radius_m) {
@@ -123,6 +126,13 @@ void count_seen_odds(const Reading& reading, double radius_m, std::vector<Hypoth
   }
 }
 
+/// Those of the mask that show what the strand field and the mask as given do not: what is wrong
+/// with a mask in other ways, the field does not follow (flowdlo_second_look_report).
+std::vector<path::Reading> beside_field(const std::vector<path::Reading>& kinds) {
+  const bool has = std::find(kinds.begin(), kinds.end(), path::Reading::kEroded) != kinds.end();
+  return has ? std::vector{path::Reading::kEroded} : std::vector<path::Reading>{};
+}
+
 /// Of a hypothesis that is right this holds, whatever the mask merges.
 bool shaped_like_a_rope(const Hypothesis& hypothesis, const Frame& frame, float width_px) {
   const auto doubts = gate::one_rope(hypothesis.prior.nodes, frame, width_px).doubts;
@@ -157,8 +167,8 @@ Rereading::Rereading(threads::Pool& pool, std::vector<path::Reading> kinds, fiel
                      const Conditions& conditions, const Frame& frame, double rope_length_m,
                      weights::PriorKind prior_kind, std::vector<Eigen::Vector2f> ends,
                      const ReadingLimits& limits)
-    : kinds_(std::move(kinds)),
-      field_(kinds_.empty() ? nullptr : field),
+    : kinds_(field != nullptr ? beside_field(kinds) : kinds),
+      field_(kinds.empty() ? nullptr : field),
       limits_(limits),
       conditions_(conditions),
       frame_(frame),
@@ -197,14 +207,16 @@ void Rereading::read(std::size_t which) {
   result.begin = Clock::now();
   const float width_px = conditions_.paths.rope_width_px;
   const path::TraceConfig config{.rope_length_m = rope_length_m_, .ends = ends_};
+  const bool of_field = field_ != nullptr && which == 0;
   const auto trace = [&] {
-    if (field_ != nullptr && which == 0) {
+    if (of_field) {
       return trace_seen(*field_, frame_, width_px, config, axes_);
     }
     const std::size_t kind = which - (field_ != nullptr ? 1 : 0);
     return path::trace_as(kinds_[kind], frame_, width_px, config);
   };
-  result.hypotheses = read_by(trace, conditions_, frame_, prior_kind_);
+  result.hypotheses =
+      read_by(trace, of_field ? kOfField : kOfEach, conditions_, frame_, prior_kind_);
   result.end = Clock::now();
 }
 

@@ -65,8 +65,8 @@ struct SecondLook {
 /// Further readings under way on the threads of a pool. What it is made of has to outlive it.
 class Rereading {
  public:
-  /// `kinds` of the mask, and with a network of a strand field the one that follows its axes, where
-  /// there are any other; null: none. `ends` as path::TraceConfig's.
+  /// `kinds` of the mask; with the network of a strand field the one that follows its axes and in
+  /// place of `kinds`, where there are any, the eroded one alone. `ends` as path::TraceConfig's.
   Rereading(threads::Pool& pool, std::vector<path::Reading> kinds, field::Network* field,
             const Conditions& conditions, const Frame& frame, double rope_length_m,
             weights::PriorKind prior_kind, std::vector<Eigen::Vector2f> ends = {},

@@ -19,7 +19,7 @@ constexpr double kDrawRidge = 0.5;
 constexpr double kHypothesisRidge = 1e-3;
 constexpr int kHypothesisSteps = 600;
 constexpr double kDrawErrors = 0.25;
-constexpr double kHypothesisErrors = 1;  // another order costs centimetres where it is wrong
+constexpr double kHypothesisErrors = 0;  // the first hypothesis is no likelier than its score says
 constexpr double kNever = 99;            // a margin that nothing passes
 
 using Costs = std::vector<std::vector<double>>;  // [samples, candidates]

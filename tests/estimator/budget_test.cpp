@@ -79,11 +79,16 @@ TEST(Budget, WithoutTimeAClearFrameIsThePriorOfItsOnlyReading) {
 TEST(Budget, WithoutTimeADoubtfulFrameIsReadOnce) {
   const testing::RingFrame ring;
   for (const int threads : {1, 2}) {
-    const Estimate estimate = estimated(within(kNoTime_ms, threads), ring.frame());
-    EXPECT_THAT(estimate.left_out,
-                ElementsAre(LeftOut::kModel, LeftOut::kField, LeftOut::kReadings));
-    EXPECT_EQ(estimate.readings, 1);
-    EXPECT_EQ(estimate.timings.readings_ms, 0);
+    Config config = within(kNoTime_ms, threads);
+    const Estimate beside = estimated(config, ring.frame());
+    EXPECT_THAT(beside.left_out, ElementsAre(LeftOut::kModel, LeftOut::kField, LeftOut::kReadings));
+    config.field = FieldChoice::kOff;
+    const Estimate alone = estimated(config, ring.frame());
+    EXPECT_THAT(alone.left_out, ElementsAre(LeftOut::kModel, LeftOut::kReadings));
+    for (const Estimate& estimate : {beside, alone}) {
+      EXPECT_EQ(estimate.readings, 1);
+      EXPECT_EQ(estimate.timings.readings_ms, 0);
+    }
   }
 }
 

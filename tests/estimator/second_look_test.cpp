@@ -111,14 +111,17 @@ TEST_F(LookAgain, WhatTheFirstReadingMissedComesBehindWithTheVotesOfTheOthers) {
   }
 }
 
-TEST_F(LookAgain, TheStrandFieldIsOneReadingMoreAndFindsTheRope) {
+TEST_F(LookAgain, WithTheStrandFieldOneMoreReadingOfTheMaskIsEnoughToFindTheRope) {
+  const auto right = conditions_.hypotheses.front().prior.nodes;
   lead_astray(0.2F);
-  const auto without = look_all_ways();
-  const auto with = look_with_field();
-  ASSERT_EQ(with.readings, without.readings + 1);
-  ASSERT_GE(with.hypotheses.size(), 2U);
-  const auto others = static_cast<float>(with.readings - 1);
-  EXPECT_NEAR(with.hypotheses[1].votes, others / (others + 1), 1e-5);
+  const auto look = look_with_field();
+  ASSERT_EQ(look.readings, 3);
+  ASSERT_GE(look.hypotheses.size(), 2U);
+  EXPECT_NEAR(look.hypotheses[1].votes, 2 / 3.0F, 1e-5);
+  EXPECT_GT(look.hypotheses[1].seen_odds, 0.9F);
+  for (std::size_t i = 0; i < kNodes; ++i) {
+    EXPECT_NEAR(look.hypotheses[1].prior.nodes[i].y, right[i].y, 0.01F);
+  }
 }
 
 TEST_F(LookAgain, TheStrandFieldGivesTheSameOnAnyNumberOfThreads) {
