@@ -56,13 +56,11 @@ Reading read_by(const Trace& trace, std::size_t most, const Conditions& conditio
 Result<path::Traversals> trace_seen(field::Network& network, const Frame& frame,
                                     float rope_width_px, const path::TraceConfig& config,
                                     std::optional<field::Axes>& axes) {
-  {  // the field of a large mask takes more memory than the paths do
-    const auto seen = field::see(frame, rope_width_px, network);
-    if (!seen) return seen.error();
-    axes = field::axes(*seen);
-  }
+  const auto seen = field::see(frame, rope_width_px, network);
+  if (!seen) return seen.error();
+  axes = field::axes(*seen);
   auto paths = path::trace_strands(frame, *axes, config);
-  axes->view = {};  // the lines are enough from here on
+  axes->view = {};  // of a large mask many megabytes, and the lines are enough from here on
   return paths;
 }
 

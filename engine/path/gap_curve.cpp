@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <limits>
 
+#include "path/cubic.hpp"
+
 namespace flowdlo::path {
 namespace {
 
@@ -25,18 +27,6 @@ constexpr float kBelow_m = 0.03F;       // so does another strand this far below
 constexpr float kOpenWidths = 4.0F;     // most of it for this many widths;
 constexpr float kSlitCost = 1.0F;       // and however short, for tips show there
 constexpr float kSlitWidths = 0.3F;
-
-struct Cubic {
-  Vector2f a, b;    // points
-  Vector2f da, db;  // derivatives there, along the way
-
-  [[nodiscard]] Vector2f at(float t) const {
-    const float t2 = t * t;
-    const float t3 = t2 * t;
-    return (2 * t3 - 3 * t2 + 1) * a + (t3 - 2 * t2 + t) * da + (3 * t2 - 2 * t3) * b +
-           (t3 - t2) * db;
-  }
-};
 
 enum class Purpose : std::uint8_t { kLink, kShape };
 
@@ -101,9 +91,8 @@ class Gap {
     float energy = 0;
     for (int i = 0; i < kSamples; ++i) {
       const float t = (static_cast<float>(i) + 0.5F) / kSamples;
-      const Vector2f d1 = (6 * t - 6 * t * t) * chord + (1 - 4 * t + 3 * t * t) * cubic.da +
-                          (3 * t * t - 2 * t) * cubic.db;
-      const Vector2f d2 = (6 - 12 * t) * chord + (6 * t - 4) * cubic.da + (6 * t - 2) * cubic.db;
+      const Vector2f d1 = cubic.first_derivative(t);
+      const Vector2f d2 = cubic.second_derivative(t);
       const float speed = std::max(d1.norm(), 1e-3F);
       float bend = (d1.x() * d2.y() - d1.y() * d2.x()) / (speed * speed * speed);
       if (purpose_ == Purpose::kLink) bend -= (1 - t) * from_.curvature - t * to_.curvature;

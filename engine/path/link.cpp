@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "path/cubic.hpp"
+
 namespace flowdlo::path {
 namespace {
 
@@ -21,24 +23,6 @@ constexpr float kOpenWidths = 0.3F;
 constexpr float kUnshownWidths = 2.0F;
 
 float saturated(float length, float scale) { return 1 - std::exp(-length / scale); }
-
-struct Cubic {
-  Vector2f a, b;    // points
-  Vector2f da, db;  // derivatives there, along the way
-
-  [[nodiscard]] Vector2f at(float t) const {
-    const float t2 = t * t;
-    const float t3 = t2 * t;
-    return (2 * t3 - 3 * t2 + 1) * a + (t3 - 2 * t2 + t) * da + (3 * t2 - 2 * t3) * b +
-           (t3 - t2) * db;
-  }
-  [[nodiscard]] Vector2f first(float t) const {
-    return (6 * t - 6 * t * t) * (b - a) + (1 - 4 * t + 3 * t * t) * da + (3 * t * t - 2 * t) * db;
-  }
-  [[nodiscard]] Vector2f second(float t) const {
-    return (6 - 12 * t) * (b - a) + (6 * t - 4) * da + (6 * t - 2) * db;
-  }
-};
 
 class Linker {
  public:
@@ -82,8 +66,8 @@ class Linker {
     float relative = 0;
     for (int i = 0; i < kSamples; ++i) {
       const float t = (static_cast<float>(i) + 0.5F) / kSamples;
-      const Vector2f d1 = attempt.cubic.first(t);
-      const Vector2f d2 = attempt.cubic.second(t);
+      const Vector2f d1 = attempt.cubic.first_derivative(t);
+      const Vector2f d2 = attempt.cubic.second_derivative(t);
       const float speed = std::max(d1.norm(), 1e-3F);
       const float bend = (d1.x() * d2.y() - d1.y() * d2.x()) / (speed * speed * speed);
       const float own = (1 - t) * from_.curvature - t * to_.curvature;
@@ -113,7 +97,7 @@ class Linker {
       const float t = (static_cast<float>(i) + 0.5F) / kSamples;
       const float step = attempt.steps[i];
       const Vector2f p = attempt.cubic.at(t);
-      const Vector2f d1 = attempt.cubic.first(t);
+      const Vector2f d1 = attempt.cubic.first_derivative(t);
       const float to_end =
           std::min(walked_px + 0.5F * step, attempt.length - walked_px - 0.5F * step);
       walked_px += step;
