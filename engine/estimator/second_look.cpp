@@ -124,8 +124,8 @@ void count_seen_odds(const Reading& reading, double radius_m, std::vector<Hypoth
   }
 }
 
-/// Those of the mask that show what the strand field and the mask as given do not: what is wrong
-/// with a mask in other ways, the field does not follow (flowdlo_second_look_report).
+/// The one of them that finds more than the strand field and the mask as given do, where it is
+/// among them; the others hardly do (flowdlo_second_look_report, docs/accuracy.md).
 std::vector<path::Reading> beside_field(const std::vector<path::Reading>& kinds) {
   const bool has = std::find(kinds.begin(), kinds.end(), path::Reading::kEroded) != kinds.end();
   return has ? std::vector{path::Reading::kEroded} : std::vector<path::Reading>{};

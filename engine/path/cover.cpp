@@ -15,6 +15,7 @@ using Eigen::Vector2f;
 
 constexpr float kMarginNoise_m = 0.003F;  // nearer or farther than the rope by this
 constexpr float kMarginRadii = 0.5F;      // and this many radii of it
+constexpr float kBelow_m = 0.03F;         // another strand this far below is background
 constexpr int kProbes = 4;                // behind the mask's edge, a pixel and a half apart
 constexpr float kProbeStepPx = 1.5F;
 
@@ -25,9 +26,7 @@ Cover::Cover(const Region& region, const Frame& frame, float width_px, const fie
 
 float Cover::shown(const Vector2f& p, const Vector2f& along, bool below_only) const {
   if (seen_ == nullptr) return 0;
-  const Vector2f offset(static_cast<float>(region_.offset_px.x),
-                        static_cast<float>(region_.offset_px.y));
-  return seen_->shown(p + offset, along, below_only);
+  return seen_->shown(p + offset_of(region_), along, below_only);
 }
 
 bool Cover::masked(const Vector2f& p) const { return lit(region_.mask, p); }
@@ -74,6 +73,10 @@ Sight Cover::at(const Vector2f& p, float rope_m) const {
   const float margin = margin_m(rope_m);
   if (z < rope_m - margin) return Sight::kHidden;
   return z > rope_m + margin ? Sight::kOpen : Sight::kUnknown;
+}
+
+bool Cover::open(const Vector2f& p, float rope_m) const {
+  return masked(p) ? rope_depth(p) > rope_m + kBelow_m : at(p, rope_m) == Sight::kOpen;
 }
 
 Sight Cover::beyond(Vector2f p, const Vector2f& direction, float rope_m, float reach_px) const {

@@ -31,6 +31,10 @@ class Cover {
   /// What shows at `p`, where the rope's surface would be `rope_m` deep; 0: depth unknown.
   [[nodiscard]] Sight at(const Eigen::Vector2f& p, float rope_m) const;
 
+  /// Whether a rope `rope_m` deep at `p` would be seen there: what shows lies behind it, be it
+  /// another strand of the mask.
+  [[nodiscard]] bool open(const Eigen::Vector2f& p, float rope_m) const;
+
   /// What shows behind the mask's edge, walking from `p` along the unit vector `direction` over at
   /// most `reach_px` of mask.
   [[nodiscard]] Sight beyond(Eigen::Vector2f p, const Eigen::Vector2f& direction, float rope_m,

@@ -16,7 +16,8 @@ constexpr float kMostEnergy = 16.0F;  // or what leaving out a longer strand cos
 struct Pair {
   int from = 0;
   int to = 0;
-  float least = 0;
+  float least = 0;  // what a link between them costs at least,
+  float most = 0;   // and at most
 };
 
 // The ends of the longest strands that are no rings.
@@ -66,7 +67,8 @@ std::vector<std::vector<Bond>> make_links(const Strands& strands, const Region& 
       if (ends[i] / 2 == ends[j] / 2) continue;
       const float apart = (strands.end(ends[i]).point_px - strands.end(ends[j]).point_px).norm();
       const float least = least_energy(apart, strands.scale_px);
-      if (least < most_for(ends[i], ends[j], strands)) pairs.push_back({ends[i], ends[j], least});
+      const float most = most_for(ends[i], ends[j], strands);
+      if (least < most) pairs.push_back({ends[i], ends[j], least, most});
     }
   }
   // The short ones first: most others then cost more than what is kept.
@@ -81,8 +83,7 @@ std::vector<std::vector<Bond>> make_links(const Strands& strands, const Region& 
                                            : links[end].back().cost;
   };
   for (const Pair& pair : pairs) {
-    const float most =
-        std::min(most_for(pair.from, pair.to, strands), std::max(kept(pair.from), kept(pair.to)));
+    const float most = std::min(pair.most, std::max(kept(pair.from), kept(pair.to)));
     if (pair.least >= most) continue;
     const Link link = link_between(pair.from, pair.to, strands, cover, most);
     if (link.energy >= most) continue;

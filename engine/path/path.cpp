@@ -143,13 +143,9 @@ Result<Answer> trace_region(const Frame& frame, int ropes, const Read<Answer>& r
 template <class Answer, class Join>
 Result<Answer> trace_mask(const Frame& frame, int ropes, const Read<Answer>& read,
                           const Join& join) {
-  const cv::Rect box = bounding_box(frame);
-  const int times = reduction_of(box);
-  if (times == 1) return trace_region(frame, ropes, read, join);
-  const Reduced reduced(frame, box, times);
-  auto result = trace_region(reduced.frame(), ropes, read, join);
-  if (result) reduced.restore(*result);
-  return result;
+  return trace_reduced<Answer>(frame, [&](const Frame& seen, const Reduced*) {
+    return trace_region(seen, ropes, read, join);
+  });
 }
 
 }  // namespace

@@ -20,6 +20,11 @@ struct Region {
   bool filtered = false;  ///< as Strokes::filtered
 };
 
+/// Image position of the crop's (0, 0).
+[[nodiscard]] inline Eigen::Vector2f offset_of(const Region& region) {
+  return {static_cast<float>(region.offset_px.x), static_cast<float>(region.offset_px.y)};
+}
+
 /// The rope's width where the distance to the nearest empty pixel is `distance_px`: 2 d - 1 for
 /// odd widths, 2 d for even ones; between the two here.
 [[nodiscard]] inline float width_at(float distance_px) { return 2.0F * distance_px - 0.5F; }

@@ -28,8 +28,7 @@ constexpr float kGrazing = 0.6F;     // cosine of the angle between them
 
 // A line in the coordinates of `region`, its points a pixel apart.
 Stretch stretch_of(const field::AxisLine& line, const Region& region) {
-  const Vector2f offset(static_cast<float>(region.offset_px.x),
-                        static_cast<float>(region.offset_px.y));
+  const Vector2f offset = offset_of(region);
   std::vector<Vector2f> points;
   points.reserve(line.points_px.size());
   for (const Vector2f& p : line.points_px) points.push_back(p - offset);
@@ -131,8 +130,7 @@ std::vector<Stretch> cut_at_joins(const std::vector<Stretch>& stretches, float w
 
 // How much each end that is no tip yet looks like one.
 void see_tips(std::vector<Stretch>& stretches, const field::Axes& axes, const Region& region) {
-  const Vector2f offset(static_cast<float>(region.offset_px.x),
-                        static_cast<float>(region.offset_px.y));
+  const Vector2f offset = offset_of(region);
   for (Stretch& stretch : stretches) {
     if (stretch.closed) continue;
     for (float& tip : stretch.tips) {
@@ -153,18 +151,13 @@ field::Axes axes_in(const Reduced& copy, field::Axes axes) {
   return axes;
 }
 
-// What `trace` makes of the frame and its axes, of a mask that is too large to be traced as it is
-// reduced, as path.cpp does it.
+// What `trace` makes of the frame and its axes, or of a reduced copy of both.
 template <class Answer, class Trace>
-Result<Answer> trace_reduced(const Frame& frame, const field::Axes& axes, const Trace& trace) {
+Result<Answer> trace_axes(const Frame& frame, const field::Axes& axes, const Trace& trace) {
   return guard::guarded("path", [&]() -> Result<Answer> {
-    const cv::Rect box = bounding_box(frame);
-    const int times = reduction_of(box);
-    if (times == 1) return trace(frame, axes);
-    const Reduced reduced(frame, box, times);
-    Result<Answer> result = trace(reduced.frame(), axes_in(reduced, axes));
-    if (result) reduced.restore(*result);
-    return result;
+    return trace_reduced<Answer>(frame, [&](const Frame& seen, const Reduced* copy) {
+      return copy == nullptr ? trace(seen, axes) : trace(seen, axes_in(*copy, axes));
+    });
   });
 }
 
@@ -189,7 +182,7 @@ Result<Traversals> trace_strands(const Frame& frame, const field::Axes& axes,
     if (!region) return region.error();
     return rank(strands_of(seen, lines, *region), *region, seen, config);
   };
-  return trace_reduced<Traversals>(frame, axes, trace);
+  return trace_axes<Traversals>(frame, axes, trace);
 }
 
 Result<RopePaths> trace_ropes(const Frame& frame, const field::Axes& axes, int ropes) {
@@ -199,7 +192,7 @@ Result<RopePaths> trace_ropes(const Frame& frame, const field::Axes& axes, int r
     const auto stretches = cut_at_joins(stretches_of(lines, *region), lines.width_px);
     return rope_paths(make_strands(stretches, lines.width_px, *region, seen), *region, seen, ropes);
   };
-  return trace_reduced<RopePaths>(frame, axes, trace);
+  return trace_axes<RopePaths>(frame, axes, trace);
 }
 
 }  // namespace flowdlo::path

@@ -97,4 +97,17 @@ class Reduced : public Rescaled {
   Reduced(const Frame& frame, const cv::Rect& box, int times);
 };
 
+/// `trace(frame, null)`; of a mask that is too large to be traced as it is `trace(copy's frame,
+/// copy)`, brought back to the pixels of the frame.
+template <class Answer, class Trace>
+[[nodiscard]] Result<Answer> trace_reduced(const Frame& frame, const Trace& trace) {
+  const cv::Rect box = bounding_box(frame);
+  const int times = reduction_of(box);
+  if (times == 1) return trace(frame, nullptr);
+  const Reduced reduced(frame, box, times);
+  Result<Answer> result = trace(reduced.frame(), &reduced);
+  if (result) reduced.restore(*result);
+  return result;
+}
+
 }  // namespace flowdlo::path

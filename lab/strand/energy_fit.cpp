@@ -17,8 +17,11 @@
 #include "field/axes.hpp"
 #include "field/strand_field.hpp"
 #include "flowdlo/centerline.hpp"
+#include "geometry/camera.hpp"
 #include "geometry/polyline.hpp"
+#include "geometry/quantile.hpp"
 #include "path/links.hpp"
+#include "path/midline.hpp"
 #include "path/path.hpp"
 #include "path/region.hpp"
 #include "path/strand_reading.hpp"
@@ -63,12 +66,6 @@ struct Stay {
   }
 };
 
-int median(std::vector<int> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 /// None where the strand does not lie on the truth.
 std::optional<Stay> stay_of(const std::vector<Vector2f>& points, const std::vector<Vector2f>& truth,
                             float width_px) {
@@ -95,8 +92,10 @@ std::optional<Stay> stay_of(const std::vector<Vector2f>& points, const std::vect
   if (places.size() < 4) return {};
   const auto quarter = static_cast<std::ptrdiff_t>(std::max<std::size_t>(1, places.size() / 4));
   Stay stay;
-  stay.first = median({places.begin(), places.begin() + quarter});
-  stay.last = median({places.end() - quarter, places.end()});
+  std::vector<int> begin(places.begin(), places.begin() + quarter);
+  std::vector<int> end(places.end() - quarter, places.end());
+  stay.first = flowdlo::geometry::median_of(begin);
+  stay.last = flowdlo::geometry::median_of(end);
   if (stay.first == stay.last) return {};
   return stay;
 }
@@ -118,13 +117,9 @@ std::vector<Vector2f> truth_in(const path::Region& region, const flowdlo::Frame&
                                const flowdlo::Centerline& truth) {
   std::vector<Vector2f> nodes;
   for (const flowdlo::Point3& node : truth) {
-    nodes.emplace_back(frame.intrinsics.fx * node.x / node.z + frame.intrinsics.cx -
-                           static_cast<float>(region.offset_px.x),
-                       frame.intrinsics.fy * node.y / node.z + frame.intrinsics.cy -
-                           static_cast<float>(region.offset_px.y));
+    nodes.push_back(flowdlo::geometry::project(frame.intrinsics, node) - path::offset_of(region));
   }
-  float length = 0;
-  for (std::size_t i = 1; i < nodes.size(); ++i) length += (nodes[i] - nodes[i - 1]).norm();
+  const float length = path::length_of(nodes);
   return flowdlo::geometry::resample(nodes, std::max(64, static_cast<int>(length)));
 }
 
@@ -287,12 +282,8 @@ int main(int argc, char** argv) {
   flowdlo::strand::add_options(app, range);
   app.add_option("--ridge", ridge, "Half the weight of the weights' squares");
   CLI11_PARSE(app, argc, argv);
-  auto loaded = flowdlo::weights::load_field(range.weights);
-  if (!loaded) {
-    fmt::print(stderr, "{}\n", loaded.error().message);
-    return 1;
-  }
-  const auto weights = std::make_shared<const flowdlo::weights::FieldWeights>(*std::move(loaded));
+  const auto weights = flowdlo::strand::weights_of(range);
+  if (!weights) return 1;
   const auto outcomes = flowdlo::strand::over_scenes<Outcome>(
       range, weights, [&](std::uint64_t index, field::Network& network) {
         return measure(range.part, index, network);

@@ -226,14 +226,10 @@ void report(const std::vector<Outcome>& outcomes) {
 }
 
 int run(const Options& options) {
-  const auto weights = flowdlo::weights::load_field(options.range.weights);
-  if (!weights) {
-    fmt::print(stderr, "{}\n", weights.error().message);
-    return 1;
-  }
-  const auto shared = std::make_shared<const flowdlo::weights::FieldWeights>(*weights);
+  const auto weights = flowdlo::strand::weights_of(options.range);
+  if (!weights) return 1;
   auto outcomes = flowdlo::strand::over_scenes<Outcome>(
-      options.range, shared, [&](std::uint64_t index, field::Network& network) {
+      options.range, weights, [&](std::uint64_t index, field::Network& network) {
         return measure(options, index, network, nullptr);
       });
   if (outcomes.empty()) return 1;
@@ -243,7 +239,7 @@ int run(const Options& options) {
     return a.field.places - a.field.found > b.field.places - b.field.found;
   });
   std::filesystem::create_directories(options.pictures);
-  auto network = strand::one_network(shared);
+  auto network = strand::one_network(weights);
   for (std::size_t i = 0; i < std::min(options.worst, outcomes.size()) && network; ++i) {
     cv::Mat drawn;
     if (!measure(options, outcomes[i].index, *network, &drawn)) continue;

@@ -19,6 +19,7 @@
 #include "field/axes.hpp"
 #include "field/channel.hpp"
 #include "field/strand_field.hpp"
+#include "geometry/camera.hpp"
 #include "geometry/polyline.hpp"
 #include "path/strand_reading.hpp"
 #include "strand/measure.hpp"
@@ -95,8 +96,7 @@ void draw(const std::filesystem::path& file, const field::StrandField& seen,
   }
   std::vector<Eigen::Vector2f> nodes;
   for (const flowdlo::Point3& node : truth) {
-    nodes.emplace_back(camera.fx * node.x / node.z + camera.cx,
-                       camera.fy * node.y / node.z + camera.cy);
+    nodes.push_back(flowdlo::geometry::project(camera, node));
   }
   for (const Eigen::Vector2f& p : flowdlo::geometry::resample(nodes, 400)) {
     cv::circle(picture, place(seen.region.to_region(p)), 1, cv::Scalar::all(255), cv::FILLED);
@@ -213,14 +213,10 @@ void report(const std::vector<Outcome>& outcomes, const Options& options) {
 
 int run(const Options& options) {
   if (!options.pictures.empty()) std::filesystem::create_directories(options.pictures);
-  const auto weights = flowdlo::weights::load_field(options.range.weights);
-  if (!weights) {
-    fmt::print(stderr, "{}\n", weights.error().message);
-    return 1;
-  }
-  const auto shared = std::make_shared<const flowdlo::weights::FieldWeights>(*weights);
+  const auto weights = flowdlo::strand::weights_of(options.range);
+  if (!weights) return 1;
   auto outcomes = flowdlo::strand::over_scenes<Outcome>(
-      options.range, shared, [&](std::uint64_t index, field::Network& network) {
+      options.range, weights, [&](std::uint64_t index, field::Network& network) {
         return measure(options, index, network);
       });
   if (outcomes.empty()) return 1;

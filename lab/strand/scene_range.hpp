@@ -42,6 +42,15 @@ inline void add_options(CLI::App& app, SceneRange& range) {
   app.add_option("--threads", range.threads, "0: one a core")->check(CLI::Range(0, 1024));
 }
 
+/// The field's weights; null where they cannot be read, which is told on stderr.
+[[nodiscard]] inline std::shared_ptr<const weights::FieldWeights> weights_of(
+    const SceneRange& range) {
+  auto loaded = weights::load_field(range.weights);
+  if (loaded) return std::make_shared<const weights::FieldWeights>(*std::move(loaded));
+  fmt::print(stderr, "{}\n", loaded.error().message);
+  return nullptr;
+}
+
 /// A network on one thread of the CPU. Fails as Network::create does.
 [[nodiscard]] inline Result<field::Network> one_network(
     const std::shared_ptr<const weights::FieldWeights>& weights) {

@@ -203,14 +203,10 @@ int main(int argc, char** argv) {
   range.first = 7000000;
   flowdlo::strand::add_options(app, range);
   CLI11_PARSE(app, argc, argv);
-  const auto weights = flowdlo::weights::load_field(range.weights);
-  if (!weights) {
-    fmt::print(stderr, "{}\n", weights.error().message);
-    return 1;
-  }
-  const auto shared = std::make_shared<const flowdlo::weights::FieldWeights>(*weights);
+  const auto weights = flowdlo::strand::weights_of(range);
+  if (!weights) return 1;
   const auto outcomes = flowdlo::strand::over_scenes<Outcome>(
-      range, shared,
+      range, weights,
       [&](std::uint64_t index, field::Network& network) { return measure(range, index, network); });
   if (outcomes.empty()) return 1;
   report(outcomes);

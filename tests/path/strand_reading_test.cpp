@@ -2,43 +2,19 @@
 
 #include <gtest/gtest.h>
 
-#include "canvas.hpp"
 #include "path/bonds.hpp"
 #include "path/strands.hpp"
 #include "path/window.hpp"
-#include "support/painted_field.hpp"
+#include "seen.hpp"
 #include "support/peak_memory.hpp"
 
 namespace flowdlo::path {
 namespace {
 
+using test::Seen;
 using testing::Axis;
-using testing::painted_field;
 using testing::show_tip;
 using testing::straight_axis;
-
-/// A rope of 8 px in a frame of 320 x 240, seen one to one, whose mask is as `axes` drawn `mask_px`
-/// wide.
-struct Seen {
-  test::Canvas canvas{320, 240};
-  field::StrandField field;
-
-  explicit Seen(const std::vector<Axis>& axes, int mask_px = 9) {
-    for (const Axis& axis : axes) {
-      test::Curve curve;
-      for (const Eigen::Vector2f& p : axis) {
-        curve.emplace_back(static_cast<int>(std::lround(p.x())),
-                           static_cast<int>(std::lround(p.y())));
-      }
-      canvas.stroke(curve, mask_px).depth(curve, mask_px, 0.5F);
-    }
-    field.region = {{0, 0, 320, 240}, {320, 240}, {1, 1}};
-    field.channels = painted_field(axes, {320, 240});
-  }
-  [[nodiscard]] Result<Traversals> traced() const {
-    return trace_strands(canvas.frame(), field::axes(field));
-  }
-};
 
 /// Two legs 8 px apart, one after the other, and the bend that joins them.
 Axis hairpin() {
