@@ -103,8 +103,6 @@ struct FLOWDLO_HIDDEN Estimator::Impl {
   Result<flow::Prediction> sample(const flow::SampleInput& input);
   [[nodiscard]] weights::PriorKind prior_kind() const;
   [[nodiscard]] bool calibrated() const;
-  [[nodiscard]] std::vector<path::Reading> readings(const estimator::Conditions& conditions,
-                                                    const Frame& frame) const;
   [[nodiscard]] estimator::ReadingLimits limits(const estimator::Budget& budget,
                                                 const Timings& timings);
   [[nodiscard]] double sampling_ms(const estimator::Rereading& rereading) const;
@@ -186,13 +184,6 @@ bool Estimator::Impl::calibrated() const {
          metadata.variant.prior_kind == weights::PriorKind::kRefined;
 }
 
-/// Of the mask beside the first; none for the thesis' gate, which knows no doubt.
-std::vector<path::Reading> Estimator::Impl::readings(const estimator::Conditions& conditions,
-                                                     const Frame& frame) const {
-  if (!calibrated()) return {};
-  return estimator::worth_reading(conditions, frame);
-}
-
 /// Of a frame whose first reading took as long as `timings` say.
 estimator::ReadingLimits Estimator::Impl::limits(const estimator::Budget& budget,
                                                  const Timings& timings) {
@@ -212,7 +203,7 @@ std::optional<field::Axes> Estimator::Impl::axes(const Frame& frame, float rope_
                                                  const estimator::Budget& budget) {
   if (!field) return std::nullopt;
   const double rope_px = estimator::magnified_px(frame, rope_width_px);
-  if (budget.bounded() && !budget.leaves(reading_costs.of_field().of(rope_px))) {
+  if (budget.bounded() && !budget.leaves(reading_costs.of_field.of(rope_px))) {
     return std::nullopt;
   }
   const auto seen = field::see(frame, rope_width_px, *field);
@@ -241,9 +232,10 @@ Result<Estimate> Estimator::Impl::estimate(const Frame& frame, const Hints& hint
                                             traced);  // Sec. 3.2, 3.3
   estimator::Stopwatch stage;
   if (!conditions) return conditions.error();
-  estimator::Rereading rereading(pool, readings(*conditions, frame), field ? &*field : nullptr,
-                                 *conditions, frame, rope_length_m, prior_kind(), ends,
-                                 limits(budget, timings));
+  // The thesis' gate knows no doubt.
+  const bool reread = calibrated() && estimator::worth_rereading(*conditions, frame);
+  estimator::Rereading rereading(pool, reread, field ? &*field : nullptr, *conditions, frame,
+                                 rope_length_m, prior_kind(), ends, limits(budget, timings));
 
   const auto& hypotheses = conditions->hypotheses;
   const bool sampled = tensors != nullptr || budget.leaves(sampling_ms(rereading));
@@ -298,7 +290,7 @@ Result<Estimate> Estimator::Impl::estimate(const Frame& frame, const Hints& hint
   estimate.calibrated = calibrated();
   if (!sampled) estimate.left_out.push_back(LeftOut::kModel);
   if (look.field_left_out) estimate.left_out.push_back(LeftOut::kField);
-  if (look.readings_left_out) estimate.left_out.push_back(LeftOut::kReadings);
+  if (look.eroded_left_out) estimate.left_out.push_back(LeftOut::kReadings);
   estimator::turn(estimate, hints, frame.intrinsics);
   stage.lap(timings.gate_ms);
   gate_cost.saw(timings.gate_ms, 1);

@@ -15,21 +15,22 @@
 #include "gate/tube_score.hpp"
 #include "geometry/polyline.hpp"
 #include "guard/guarded.hpp"
+#include "path/eroded.hpp"
 #include "path/limits.hpp"
 #include "path/strand_reading.hpp"
 
 namespace flowdlo::estimator {
 namespace {
 
-constexpr std::size_t kOfEach = 2;   // hypotheses of a further reading of the mask,
-constexpr std::size_t kOfField = 4;  // and of the strand field
+constexpr std::size_t kOfEroded = 2;  // hypotheses of the eroded mask,
+constexpr std::size_t kOfField = 4;   // and of the strand field
 constexpr double kSamePlace = 2;    // rope radii between the mean nodes of one and the same
 constexpr double kOddsScore = 1;    // score that makes a hypothesis e times as likely
 
-// Expected before any reading was timed, in doubt too much: what the slowest reading of the mask
-// takes for each millisecond of the first, and the field for each pixel, which is twice the 4 us of
-// one core of a Sapphire Rapids.
-constexpr double kFirstReadings = 2;
+// Expected before any reading was timed, in doubt too much: what the eroded mask takes for each
+// millisecond of the first reading, and the field for each pixel, which is twice the 4 us of one
+// core of a Sapphire Rapids.
+constexpr double kFirstReading = 2;
 constexpr double kFieldPixel_ms = 0.008;
 
 using Reading = std::vector<Hypothesis>;  // what one reading brought forth, best first
@@ -124,13 +125,6 @@ void count_seen_odds(const Reading& reading, double radius_m, std::vector<Hypoth
   }
 }
 
-/// The one of them that finds more than the strand field and the mask as given do, where it is
-/// among them; the others hardly do (flowdlo_second_look_report, docs/accuracy.md).
-std::vector<path::Reading> beside_field(const std::vector<path::Reading>& kinds) {
-  const bool has = std::find(kinds.begin(), kinds.end(), path::Reading::kEroded) != kinds.end();
-  return has ? std::vector{path::Reading::kEroded} : std::vector<path::Reading>{};
-}
-
 /// Of a hypothesis that is right this holds, whatever the mask merges.
 bool shaped_like_a_rope(const Hypothesis& hypothesis, const Frame& frame, float width_px) {
   const auto doubts = gate::one_rope(hypothesis.prior.nodes, frame, width_px).doubts;
@@ -139,15 +133,14 @@ bool shaped_like_a_rope(const Hypothesis& hypothesis, const Frame& frame, float 
 
 }  // namespace
 
-std::vector<path::Reading> worth_reading(const Conditions& conditions, const Frame& frame) {
+bool worth_rereading(const Conditions& conditions, const Frame& frame) {
   const auto& first = conditions.hypotheses;
   const path::Traversals& paths = conditions.paths;
-  if (confidence(first.front().evidence, lead(first)) >= kClear) return {};
-  if (paths.filtered || paths.strands > path::kMostRereadStrands) return {};
+  if (confidence(first.front().evidence, lead(first)) >= kClear) return false;
+  if (paths.filtered || paths.strands > path::kMostRereadStrands) return false;
   const auto sides = static_cast<std::size_t>(frame.width + frame.height);
-  if (paths.ranked.front().points_px.size() > path::kMostRereadSides * sides) return {};
-  if (!shaped_like_a_rope(first.front(), frame, paths.rope_width_px)) return {};
-  return path::further_readings(frame, paths.rope_width_px);
+  if (paths.ranked.front().points_px.size() > path::kMostRereadSides * sides) return false;
+  return shaped_like_a_rope(first.front(), frame, paths.rope_width_px);
 }
 
 double magnified_px(const Frame& frame, float rope_width_px) {
@@ -157,38 +150,42 @@ double magnified_px(const Frame& frame, float rope_width_px) {
   return static_cast<double>(masked) * static_cast<double>(scale * scale);
 }
 
-ReadingCosts::ReadingCosts()
-    : of_mask_(static_cast<std::size_t>(path::Reading::kMeasured) + 1, Cost(kFirstReadings)),
-      of_field_(kFieldPixel_ms) {}
+ReadingCosts::ReadingCosts() : of_eroded(kFirstReading), of_field(kFieldPixel_ms) {}
 
-Rereading::Rereading(threads::Pool& pool, std::vector<path::Reading> kinds, field::Network* field,
+Rereading::Rereading(threads::Pool& pool, bool worth, field::Network* field,
                      const Conditions& conditions, const Frame& frame, double rope_length_m,
                      weights::PriorKind prior_kind, std::vector<Eigen::Vector2f> ends,
                      const ReadingLimits& limits)
-    : kinds_(field != nullptr ? beside_field(kinds) : kinds),
-      field_(kinds.empty() ? nullptr : field),
+    : field_(field),
       limits_(limits),
       conditions_(conditions),
       frame_(frame),
       rope_length_m_(rope_length_m),
       prior_kind_(prior_kind),
       ends_(std::move(ends)),
-      rope_px_(field_ != nullptr && limits.budget != nullptr
+      rope_px_(worth && field != nullptr && limits.budget != nullptr
                    ? magnified_px(frame, conditions.paths.rope_width_px)
                    : 0),
-      reads_(planned()),
+      reads_(planned(worth)),
       beside_(pool, static_cast<int>(reads_.size()),
-              [this](int which) { read(static_cast<std::size_t>(which)); }) {}
+              [this](int which) { read(reads_[static_cast<std::size_t>(which)]); }) {}
 
-std::vector<Rereading::Read> Rereading::planned() const {
-  const std::size_t fields = field_ != nullptr ? 1 : 0;
-  std::vector<Read> reads(kinds_.size() + fields);
+std::vector<Rereading::Read> Rereading::planned(bool worth) const {
+  std::vector<Read> reads;
+  if (!worth) return reads;
+  if (field_ != nullptr) reads.push_back({Kind::kField});
+  if (path::fit_to_erode(frame_)) reads.push_back({Kind::kEroded});
   if (limits_.budget == nullptr) return reads;
-  if (field_ != nullptr) reads.front().expected_ms = limits_.costs->of_field().of(rope_px_);
-  for (std::size_t i = 0; i < kinds_.size(); ++i) {
-    reads[fields + i].expected_ms = limits_.costs->of(kinds_[i]).of(limits_.first_ms);
-  }
+  for (Read& read : reads) read.expected_ms = cost_of(read.kind).of(amount_of(read.kind));
   return reads;
+}
+
+Cost& Rereading::cost_of(Kind kind) const {
+  return kind == Kind::kField ? limits_.costs->of_field : limits_.costs->of_eroded;
+}
+
+double Rereading::amount_of(Kind kind) const {
+  return kind == Kind::kField ? rope_px_ : limits_.first_ms;
 }
 
 double Rereading::expected_ms() const {
@@ -196,8 +193,7 @@ double Rereading::expected_ms() const {
                          [](double sum, const Read& read) { return sum + read.expected_ms; });
 }
 
-void Rereading::read(std::size_t which) {
-  Read& result = reads_[which];
+void Rereading::read(Read& result) {
   if (limits_.budget != nullptr && !limits_.budget->leaves(result.expected_ms + limits_.after_ms)) {
     result.left_out = true;
     return;
@@ -205,29 +201,23 @@ void Rereading::read(std::size_t which) {
   result.begin = Clock::now();
   const float width_px = conditions_.paths.rope_width_px;
   const path::TraceConfig config{.rope_length_m = rope_length_m_, .ends = ends_};
-  const bool of_field = field_ != nullptr && which == 0;
+  const bool of_field = result.kind == Kind::kField;
   const auto trace = [&] {
-    if (of_field) {
-      return trace_seen(*field_, frame_, width_px, config, axes_);
-    }
-    const std::size_t kind = which - (field_ != nullptr ? 1 : 0);
-    return path::trace_as(kinds_[kind], frame_, width_px, config);
+    return of_field ? trace_seen(*field_, frame_, width_px, config, axes_)
+                    : path::trace_eroded(frame_, width_px, config);
   };
   result.hypotheses =
-      read_by(trace, of_field ? kOfField : kOfEach, conditions_, frame_, prior_kind_);
+      read_by(trace, of_field ? kOfField : kOfEroded, conditions_, frame_, prior_kind_);
   result.end = Clock::now();
 }
 
 void Rereading::learn_costs() const {
   if (limits_.budget == nullptr) return;
-  const std::size_t fields = field_ != nullptr ? 1 : 0;
-  for (std::size_t i = 0; i < reads_.size(); ++i) {
-    const bool of_field = i < fields;
-    Cost& cost = of_field ? limits_.costs->of_field() : limits_.costs->of(kinds_[i - fields]);
-    if (reads_[i].left_out) {
-      cost.left_out();
+  for (const Read& read : reads_) {
+    if (read.left_out) {
+      cost_of(read.kind).left_out();
     } else {
-      cost.saw(reads_[i].took_ms(), of_field ? rope_px_ : limits_.first_ms);
+      cost_of(read.kind).saw(read.took_ms(), amount_of(read.kind));
     }
   }
 }
@@ -235,14 +225,15 @@ void Rereading::learn_costs() const {
 SecondLook Rereading::finish() {
   beside_.finish();
   learn_costs();
-  const bool seen = field_ != nullptr && !reads_.front().hypotheses.empty();
   std::vector<Reading> readings{conditions_.hypotheses};
   SecondLook look;
-  for (std::size_t i = 0; i < reads_.size(); ++i) {
-    const bool of_field = field_ != nullptr && i == 0;
-    (of_field ? look.field_left_out : look.readings_left_out) |= reads_[i].left_out;
-    if (reads_[i].hypotheses.empty()) continue;
-    readings.push_back(std::move(reads_[i].hypotheses));
+  bool seen = false;
+  for (Read& read : reads_) {
+    const bool of_field = read.kind == Kind::kField;
+    (of_field ? look.field_left_out : look.eroded_left_out) = read.left_out;
+    if (read.hypotheses.empty()) continue;
+    seen = seen || of_field;
+    readings.push_back(std::move(read.hypotheses));
   }
   const auto radius_m = static_cast<double>(gate::tube_radius_m(
       readings.front().front().prior.nodes, frame_.intrinsics, conditions_.paths.rope_width_px));

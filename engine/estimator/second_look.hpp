@@ -3,7 +3,7 @@
 #pragma once
 
 #include <chrono>
-#include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -12,7 +12,6 @@
 #include "field/axes.hpp"
 #include "field/network.hpp"
 #include "flowdlo/frame.hpp"
-#include "path/readings.hpp"
 #include "threads/pool.hpp"
 #include "weights/variant.hpp"
 
@@ -21,28 +20,20 @@ namespace flowdlo::estimator {
 /// How sure the first reading has to be of its best hypothesis to be left alone, `confidence`.
 inline constexpr float kClear = 0.7F;
 
-/// The readings of the frame that `conditions` are of which may be surer than the first one: none
-/// where that one is clear, and none where another would be no better: of noise, of what has no
+/// Whether further readings of the frame that `conditions` are of may be surer than the first one:
+/// not where that one is clear, and not where another would be no better: of noise, of what has no
 /// rope's shape, of a tangle beyond path::kMostRereadStrands or path::kMostRereadSides.
-[[nodiscard]] std::vector<path::Reading> worth_reading(const Conditions& conditions,
-                                                       const Frame& frame);
+[[nodiscard]] bool worth_rereading(const Conditions& conditions, const Frame& frame);
 
 /// Pixels of the mask, magnified as the network of a strand field sees a rope of that width.
 [[nodiscard]] double magnified_px(const Frame& frame, float rope_width_px);
 
 /// What a further reading takes. From frame to frame: what one frame took is what the next expects.
-class ReadingCosts {
- public:
+struct ReadingCosts {
   ReadingCosts();
 
-  /// Of the mask, for each millisecond that the first reading took.
-  Cost& of(path::Reading reading) { return of_mask_[static_cast<std::size_t>(reading)]; }
-  /// Of the strand field, for each pixel of the rope, magnified as the network sees it.
-  Cost& of_field() { return of_field_; }
-
- private:
-  std::vector<Cost> of_mask_;
-  Cost of_field_;
+  Cost of_eroded;  ///< for each millisecond that the first reading took
+  Cost of_field;   ///< for each pixel of the rope, magnified as the network sees it
 };
 
 /// Until when further readings may begin.
@@ -59,18 +50,18 @@ struct SecondLook {
                                          ///< then others that run elsewhere, best first
   std::optional<field::Axes> axes{};     ///< what the strand field shows, where it was asked
   bool field_left_out = false;           ///< for want of time
-  bool readings_left_out = false;        ///< some of the mask, for want of time
+  bool eroded_left_out = false;          ///< the eroded mask, for want of time
 };
 
 /// Further readings under way on the threads of a pool. What it is made of has to outlive it.
 class Rereading {
  public:
-  /// `kinds` of the mask; with the network of a strand field the one that follows its axes and in
-  /// place of `kinds`, where there are any, the eroded one alone. `ends` as path::TraceConfig's.
-  Rereading(threads::Pool& pool, std::vector<path::Reading> kinds, field::Network* field,
-            const Conditions& conditions, const Frame& frame, double rope_length_m,
-            weights::PriorKind prior_kind, std::vector<Eigen::Vector2f> ends = {},
-            const ReadingLimits& limits = {});
+  /// None where nothing is `worth` it; otherwise the one along the axes that the network of a
+  /// strand field sees, where there is one, and that of the eroded mask, which of all masks tried
+  /// finds most beside it (docs/accuracy.md). `ends` as path::TraceConfig's.
+  Rereading(threads::Pool& pool, bool worth, field::Network* field, const Conditions& conditions,
+            const Frame& frame, double rope_length_m, weights::PriorKind prior_kind,
+            std::vector<Eigen::Vector2f> ends = {}, const ReadingLimits& limits = {});
 
   /// What all readings will take on one thread; 0 without limits.
   [[nodiscard]] double expected_ms() const;
@@ -85,11 +76,14 @@ class Rereading {
  private:
   using Clock = std::chrono::steady_clock;
 
+  enum class Kind : std::uint8_t { kField, kEroded };
+
   /// One reading's hypotheses, best first; none where it fails.
   struct Read {
-    std::vector<Hypothesis> hypotheses;
-    Clock::time_point begin;
-    Clock::time_point end;
+    Kind kind{};
+    std::vector<Hypothesis> hypotheses{};
+    Clock::time_point begin{};
+    Clock::time_point end{};
     double expected_ms = 0;
     bool left_out = false;  // it would have ended too late
 
@@ -98,12 +92,13 @@ class Rereading {
     }
   };
 
-  [[nodiscard]] std::vector<Read> planned() const;
-  void read(std::size_t which);
+  [[nodiscard]] std::vector<Read> planned(bool worth) const;
+  [[nodiscard]] Cost& cost_of(Kind kind) const;
+  [[nodiscard]] double amount_of(Kind kind) const;  // of what the cost is for each
+  void read(Read& result);
   void learn_costs() const;
 
-  const std::vector<path::Reading> kinds_;
-  field::Network* const field_;  // read first, for it takes longest
+  field::Network* const field_;
   const ReadingLimits limits_;
   const Conditions& conditions_;
   const Frame frame_;
@@ -111,7 +106,7 @@ class Rereading {
   const weights::PriorKind prior_kind_;
   const std::vector<Eigen::Vector2f> ends_;
   double rope_px_ = 0;       // of the rope, magnified as the network sees it; 0 without limits
-  std::vector<Read> reads_;  // one a reading
+  std::vector<Read> reads_;  // the field's first, for it takes longest
   std::optional<field::Axes> axes_;
   threads::Beside beside_;  // last: it ends first
 };

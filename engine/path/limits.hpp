@@ -12,10 +12,6 @@ inline constexpr int kMostTracedPixels = 1 << 23;
 /// Twice the width and height of 1920 x 1080.
 inline constexpr int kMostMagnifiedPixels = 1 << 23;
 
-/// Pixels that all further readings of a mask have together, a reading that would exceed them is
-/// left out. Four readings of 1920 x 1080 in full, one of them at twice the size.
-inline constexpr int kMostRereadPixels = 1 << 24;
-
 /// Length of a mask's strokes, in sums of the image's two sides. Over a hundred `wide` scenes and
 /// all readings of them the most is 2.9.
 inline constexpr int kMostStrokeSides = 8;

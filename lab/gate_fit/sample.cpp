@@ -47,7 +47,7 @@ bool doubtful(const synth::SyntheticFrame& scene, weights::PriorKind kind, doubl
   const Frame frame = scene.frame();
   Timings timings;
   const auto conditions = estimator::gather(frame, rope_length_m, kind, timings);
-  return conditions && !estimator::worth_reading(*conditions, frame).empty();
+  return conditions && estimator::worth_rereading(*conditions, frame);
 }
 
 std::optional<GateSample> measure(const synth::SyntheticFrame& scene, flow::Sampler* sampler,
@@ -66,8 +66,8 @@ std::optional<GateSample> measure(const synth::SyntheticFrame& scene, flow::Samp
   sample.hard = scene.meta.hard();
   sample.truth = eval::canonical(scene.truth());
   threads::Pool alone(1);
-  const auto look = estimator::Rereading(alone, estimator::worth_reading(*conditions, frame), field,
-                                         *conditions, frame, rope_length_m, kind)
+  const auto look = estimator::Rereading(alone, estimator::worth_rereading(*conditions, frame),
+                                         field, *conditions, frame, rope_length_m, kind)
                         .finish();
   sample.candidates =
       estimator::list_candidates(look, conditions->paths.rope_width_px, drawn->prediction,

@@ -127,7 +127,7 @@ flowdlo::Result<Outcome> measure(const Options& options, std::uint64_t index,
   if (!conditions) return conditions.error();
   outcome.mask_ms = ms_since(begin);
   const auto& of_mask = conditions->hypotheses;
-  outcome.clear = estimator::worth_reading(*conditions, frame).empty();
+  outcome.clear = !estimator::worth_rereading(*conditions, frame);
   begin = std::chrono::steady_clock::now();
   const auto seen = field::see(frame, conditions->paths.rope_width_px, network);
   if (!seen) return seen.error();

@@ -1,12 +1,11 @@
-// The path alone, on small masks: an error, or traversals that keep what path.hpp promises. The
-// first byte says in which way the mask is read.
+// The path alone, on small masks: an error, or traversals that keep what path.hpp promises. As it
+// is and eroded.
 #include "path/path.hpp"
 
-#include <array>
 #include <cmath>
 
 #include "drawn_frame.hpp"
-#include "path/readings.hpp"
+#include "path/eroded.hpp"
 #include "promise.hpp"
 #include "target.hpp"
 
@@ -16,12 +15,9 @@ using flowdlo::Frame;
 using flowdlo::Result;
 using flowdlo::fuzz::promise;
 using flowdlo::path::Path;
-using flowdlo::path::Reading;
 using flowdlo::path::Traversals;
 
 constexpr int kMostSide_px = 96;  // so that an execution takes milliseconds
-constexpr std::array kReadings{Reading::kAsGiven, Reading::kHalved,  Reading::kDoubled,
-                               Reading::kEroded,  Reading::kDilated, Reading::kMeasured};
 
 bool unit(float value) { return value >= 0 && value <= 1; }
 
@@ -80,7 +76,6 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     const auto again = flowdlo::path::trace(frame, config);
     promise(again && same(*again, *traversals), "the same frame gives the same paths");
   }
-  const auto reading = kReadings[static_cast<std::size_t>(choice) % kReadings.size()];
-  check(flowdlo::path::trace_as(reading, frame, traversals->rope_width_px, config), frame);
+  check(flowdlo::path::trace_eroded(frame, traversals->rope_width_px, config), frame);
   return 0;
 }
