@@ -4,9 +4,17 @@
 
 namespace flowdlo::path {
 
-/// Pixels of the mask's bounding box that are traced as they are; a larger box is traced at a half,
-/// a third, ... of its size. 1920 x 1080 at twice its width and height.
+/// Pixels of the mask's bounding box that are traced as they are, whatever the mask holds; what is
+/// left of a larger box when it is halved has still more than 640 x 480 px, at which all that reads
+/// masks was fitted. 1920 x 1080.
+inline constexpr int kAlwaysTracedPixels = 1 << 21;
+
+/// The same of a mask of thin strokes; a larger box is traced at a half, a third, ... of its size.
+/// 1920 x 1080 at twice its width and height.
 inline constexpr int kMostTracedPixels = 1 << 23;
+
+/// Width in pixels from which ropes gain nothing from twice as many of them.
+inline constexpr float kThickPx = 8.0F;
 
 /// Pixels of a region that is magnified to cut thin strands apart; a larger one is cut as it is.
 /// Twice the width and height of 1920 x 1080.

@@ -16,7 +16,6 @@ namespace {
 
 constexpr int kAroundPx = 24;     // beside the mask, and this many of the rope's widths: what lies
 constexpr int kAroundWidths = 2;  // there tells of occluders
-constexpr float kThickPx = 8.0F;  // ropes wider than this gain nothing from twice the pixels
 constexpr float kLeastUnmeasured = 1.0F;   // squared widths of mask without depth worth a reading
 constexpr float kErodedShare = 1.0F / 16;  // of the rope's width from each side,
 constexpr float kDilatedShare = 1.0F / 8;  // and to each side,
@@ -118,7 +117,7 @@ Result<Traversals> trace_reread(Reading reading, const Frame& frame, float rope_
                                 const TraceConfig& config) {
   const cv::Rect box = bounding_box(frame);
   if (reading == Reading::kAsGiven || box.empty()) return trace(frame, config);
-  if (const int times = reduction_of(box); times > 1) {
+  if (const int times = reduction_of(frame, box); times > 1) {
     const Reduced reduced(frame, box, times);
     auto result =
         trace_reread(reading, reduced.frame(), rope_width_px / static_cast<float>(times), config);
