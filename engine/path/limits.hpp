@@ -36,6 +36,10 @@ inline constexpr int kMostRopesSides = 12;
 /// scenes the most is 57, and 176 in a further reading.
 inline constexpr int kMostSegments = 256;
 
+/// Segments of one rope's graph that is traced once more with its doubles cut apart, which takes
+/// longer than the first time. Over a hundred `wide` scenes the most of a first reading is 57.
+inline constexpr int kMostPartedSegments = 64;
+
 /// Strands of a first reading that is followed by others, each of which takes as long again. A rope
 /// that crosses itself 20 times has 41; over a hundred `wide` scenes the most is 31.
 inline constexpr int kMostRereadStrands = 41;
