@@ -22,9 +22,13 @@ Result<std::vector<Hypothesis>> lift_all(const path::Traversals& paths,
   };
   std::vector<Hypothesis> hypotheses;
   double best = -std::numeric_limits<double>::infinity();
+  const auto most_px = static_cast<std::size_t>(kMostLiftedSides * (frame.width + frame.height));
+  std::size_t lifted_px = 0;  // path points lie a pixel apart
   for (std::size_t i = 0; i < paths.ranked.size(); ++i) {
     const path::Path& path = paths.ranked[i];
     if (path.score < paths.ranked.front().score - kReach || path.score < best - kSlack) continue;
+    lifted_px += path.points_px.size();
+    if (i > 1 && lifted_px > most_px) continue;
     const float width_px = path.width_px > 0 ? path.width_px : paths.rope_width_px;
     const auto refined = prior::refine(path, width_px, cloud, visible, frame);
     auto lifted = kind == weights::PriorKind::kThesis

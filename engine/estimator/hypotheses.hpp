@@ -30,7 +30,8 @@ struct Hypothesis {
 
 /// Best `score` first, ties in the order of `paths`; never empty. Fails as the lift of the best
 /// traversal does; runners-up that cannot be lifted are left out, and so are those whose path
-/// score is so low (kReach, kSlack) that no comparison would bring them near the front.
+/// score is so low (kReach, kSlack) that no comparison would bring them near the front, and those
+/// beyond the second that would make all of them longer than kMostLiftedSides.
 [[nodiscard]] Result<std::vector<Hypothesis>> lift_all(const path::Traversals& paths,
                                                        const evidence::Cloud& cloud,
                                                        const evidence::VisiblePoints& visible,
@@ -48,6 +49,10 @@ struct Hypothesis {
 /// [draws] the same for a gate that can tell them apart: every hypothesis gets a draw, best first,
 /// as long as there are draws; those left over go to the winner.
 [[nodiscard]] std::vector<int> spread_draws(int hypotheses, int draws);
+
+/// Length of all traversals that are lifted, in sums of the image's two sides: as long as the
+/// strokes of a mask may be. Over a hundred `wide` scenes the longest of one is 1.8.
+inline constexpr int kMostLiftedSides = 8;
 
 inline constexpr float kDoubt = 0.5F;  ///< margin below which runners-up are worth a draw
 inline constexpr double kReach = 6;    ///< path score by which a runner-up may trail the first

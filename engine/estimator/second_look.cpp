@@ -174,7 +174,7 @@ std::vector<Rereading::Read> Rereading::planned(bool worth) const {
   std::vector<Read> reads;
   if (!worth) return reads;
   if (field_ != nullptr) reads.push_back({Kind::kField});
-  if (path::fit_to_erode(frame_)) reads.push_back({Kind::kEroded});
+  reads.push_back({Kind::kEroded});
   if (limits_.budget == nullptr) return reads;
   for (Read& read : reads) read.expected_ms = cost_of(read.kind).of(amount_of(read.kind));
   return reads;

@@ -8,6 +8,17 @@
 
 namespace flowdlo::path {
 
+/// What a derivative of a cubic in Hermite's form consists of.
+struct SlopeWeights {
+  float chord, a, b;  ///< of b - a, and of the derivatives at a and b
+};
+[[nodiscard]] constexpr SlopeWeights first_weights(float t) {
+  return {6 * t - 6 * t * t, 1 - 4 * t + 3 * t * t, 3 * t * t - 2 * t};
+}
+[[nodiscard]] constexpr SlopeWeights second_weights(float t) {
+  return {6 - 12 * t, 6 * t - 4, 6 * t - 2};
+}
+
 /// In Hermite's form, over t in [0, 1].
 struct Cubic {
   Eigen::Vector2f a, b;    ///< points
@@ -20,10 +31,8 @@ struct Cubic {
            (t3 - t2) * db;
   }
   [[nodiscard]] Eigen::Vector2f first_derivative(float t) const {
-    return (6 * t - 6 * t * t) * (b - a) + (1 - 4 * t + 3 * t * t) * da + (3 * t * t - 2 * t) * db;
-  }
-  [[nodiscard]] Eigen::Vector2f second_derivative(float t) const {
-    return (6 - 12 * t) * (b - a) + (6 * t - 4) * da + (6 * t - 2) * db;
+    const SlopeWeights weights = first_weights(t);
+    return weights.chord * (b - a) + weights.a * da + weights.b * db;
   }
 };
 

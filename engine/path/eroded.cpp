@@ -30,33 +30,35 @@ cv::Mat shrunk(const cv::Mat& mask, int radius_px) {
   return result > static_cast<float>(radius_px);
 }
 
-}  // namespace
+Result<Traversals> trace_inner(const Frame& frame, float rope_width_px, const TraceConfig& config) {
+  const cv::Rect box = bounding_box(frame);
+  const int around_px = kAroundPx + kAroundWidths * static_cast<int>(std::lround(rope_width_px));
+  const Window window{widened(box, around_px, {frame.width, frame.height}), 1};
+  const int radius_px = std::max(1, static_cast<int>(std::lround(kShare * rope_width_px)));
+  cv::Mat mask = mask_in(frame, window.part);
+  cv::threshold(mask, mask, 127, 255, cv::THRESH_BINARY);
+  mask = shrunk(mask, radius_px);
+  const cv::Mat depth_m = depth_in(frame, window.part);
+  const cv::Mat instances = instances_in(frame, window.part);
+  auto result = trace(frame_of(mask, depth_m, instances, window.camera(frame.intrinsics)), config);
+  if (!result) return result;
+  window.restore(*result, {frame.width, frame.height});
+  const float less_px = 2 * static_cast<float>(radius_px);
+  result->rope_width_px = std::max(kLeastWidthPx, result->rope_width_px + less_px);
+  for (Path& path : result->ranked) path.width_px = std::max(kLeastWidthPx, path.width_px + less_px);
+  return result;
+}
 
-bool fit_to_erode(const Frame& frame) { return reduction_of(bounding_box(frame)) == 1; }
+}  // namespace
 
 Result<Traversals> trace_eroded(const Frame& frame, float rope_width_px,
                                 const TraceConfig& config) {
   return guard::guarded("path", [&]() -> Result<Traversals> {
-    const cv::Rect box = bounding_box(frame);
-    if (box.empty()) return trace(frame, config);  // which says why there is none
-    const int around_px = kAroundPx + kAroundWidths * static_cast<int>(std::lround(rope_width_px));
-    const Window window{widened(box, around_px, {frame.width, frame.height}), 1};
-    const int radius_px = std::max(1, static_cast<int>(std::lround(kShare * rope_width_px)));
-    cv::Mat mask = mask_in(frame, window.part);
-    cv::threshold(mask, mask, 127, 255, cv::THRESH_BINARY);
-    mask = shrunk(mask, radius_px);
-    const cv::Mat depth_m = depth_in(frame, window.part);
-    const cv::Mat instances = instances_in(frame, window.part);
-    auto result =
-        trace(frame_of(mask, depth_m, instances, window.camera(frame.intrinsics)), config);
-    if (!result) return result;
-    window.restore(*result, {frame.width, frame.height});
-    const float less_px = 2 * static_cast<float>(radius_px);
-    result->rope_width_px = std::max(kLeastWidthPx, result->rope_width_px + less_px);
-    for (Path& path : result->ranked) {
-      path.width_px = std::max(kLeastWidthPx, path.width_px + less_px);
-    }
-    return result;
+    if (bounding_box(frame).empty()) return trace(frame, config);  // which says why there is none
+    return trace_reduced<Traversals>(frame, [&](const Frame& seen, const Reduced* copy) {
+      const float scale = copy == nullptr ? 1 : copy->scale();
+      return trace_inner(seen, scale * rope_width_px, config);
+    });
   });
 }
 

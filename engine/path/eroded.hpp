@@ -8,13 +8,9 @@
 
 namespace flowdlo::path {
 
-/// Whether the mask is small enough to be traced as it is, not reduced, after which a pixel less
-/// of border would be nothing. Expects a valid frame.
-[[nodiscard]] bool fit_to_erode(const Frame& frame);
-
 /// As `trace`, of the mask without a sixteenth of the rope's width from each side, one pixel at
-/// least; widths are those of the mask as it is. Expects a valid frame that is fit to erode. Fails
-/// with kNoPath where nothing is left of the mask.
+/// least; widths are those of the mask as it is. Expects a valid frame. Fails with kNoPath where
+/// nothing is left of the mask.
 [[nodiscard]] Result<Traversals> trace_eroded(const Frame& frame, float rope_width_px,
                                               const TraceConfig& config = {});
 

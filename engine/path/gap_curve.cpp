@@ -24,6 +24,11 @@ constexpr float kOpenWidths = 4.0F;     // most of it for this many widths;
 constexpr float kSlitCost = 1.0F;       // and however short, for tips show there
 constexpr float kSlitWidths = 0.3F;
 
+// No curve is shorter than its chord, nor as it is sampled than this share of it: with n samples
+// and tangents of a and b chords 1 + (2 - a - b) / (4 n^2) is the least.
+constexpr float kSampledChord =
+    0.999F + (2 - 2 * kTangents.back()) / (4.0F * kCurveSamples * kCurveSamples);
+
 enum class Purpose : std::uint8_t { kLink, kShape };
 
 class Gap {
@@ -35,6 +40,8 @@ class Gap {
   // are looked up only where the rest leaves room below `most`.
   float search(Purpose purpose, float most = std::numeric_limits<float>::max()) {
     purpose_ = purpose;
+    const float chord_px = (to_.point_px - from_.point_px).norm();
+    if (kSampledChord * chord_px / (kWidths * scale_px_) >= most) return least_;
     std::array<Attempt, kTangents.size() * kTangents.size()> attempts;
     std::size_t count = 0;
     for (const float out : kTangents) {

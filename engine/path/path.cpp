@@ -51,21 +51,30 @@ int alive(const Graph& graph) {
 // The graph of the mask; a frayed or noisy one is filtered first. A mask that stays a tangle of
 // many segments is no rope.
 Result<Graph> graph_of(Region& region) {
-  Graph graph = make_graph(thin(region.mask), region);
+  Graph graph;
+  int segments = 0;
+  const auto read = [&] {
+    segments = least_segments(region.mask);
+    if (segments > kMostSegments) return;  // which is told sooner than by thinning
+    graph = make_graph(thin(region.mask), region);
+    segments = alive(graph);
+  };
+  read();
   if (ragged(graph)) {
     const int size = std::clamp(static_cast<int>(region.width_px / 3) | 1, 3, 15);
     region = smoothed(region, size);
-    graph = make_graph(thin(region.mask), region);
+    read();
   }
-  for (int size = 5; alive(graph) > kMostSegments && size <= 21; size += 8) {
+  for (int size = 5; segments > kMostSegments && size <= 21; size += 8) {
     region = smoothed(region, size);
-    graph = make_graph(thin(region.mask), region);
+    read();
   }
-  if (alive(graph) <= kMostSegments) return graph;
+  if (segments <= kMostSegments) return graph;
   return Error{ErrorCode::kNoPath,
                fmt::format("path: expected one rope, at most {} stretches between crossings and "
-                           "ends, got {} of a texture or of many things; check the segmentation",
-                           kMostSegments, alive(graph))};
+                           "ends, got at least {} of a texture or of many things; check the "
+                           "segmentation",
+                           kMostSegments, segments)};
 }
 
 // `Answer` is what `read` makes of strands: Traversals or RopePaths.
@@ -131,7 +140,9 @@ Result<Answer> trace_region(const Frame& frame, int ropes, const Read<Answer>& r
   if (!region) return region.error();
   auto graph = graph_of(*region);
   if (!graph) return graph.error();
-  const Doubles doubles = find_doubles(*graph, *region, frame);
+  const int most_parted = ropes == 1 ? kMostPartedSegments : kMostSegments;
+  Doubles doubles;
+  if (alive(*graph) <= most_parted) doubles = find_doubles(*graph, *region, frame);
   auto whole = trace_graph(*graph, *region, frame, read);
   if (doubles.lines.empty() || !whole) return whole;
   auto parted = trace_parted(*region, doubles, frame, read);

@@ -163,6 +163,7 @@ bool fill_highlights(cv::Mat& mask, float width) {
   for (int i = 1; i < count; ++i) {
     if (i != outside && stats.at<int>(i, cv::CC_STAT_AREA) <= most) fill[i] = 1;
   }
+  if (std::find(fill.begin(), fill.end(), 1) == fill.end()) return false;
   cv::Mat filled = mask.clone();
   for (int v = 0; v < mask.rows; ++v) {
     const int* label = labels.ptr<int>(v);
@@ -281,9 +282,11 @@ Result<Region> clean(const Frame& frame, int ropes) {
   }
   region.distance_px = distance_of(region.mask);
   cut_seams(frame, region);
+  const cv::Mat measured = region.mask.clone();
   erase_specks(region.mask, kSpeckWidths * region.width_px * region.width_px);
   fill_highlights(region.mask, region.width_px);
   if (!region.seams.empty()) region.mask.setTo(0, region.seams);
+  if (cv::countNonZero(region.mask != measured) == 0) return region;
   region.distance_px = distance_of(region.mask);
   region.width_px = ridge_widths(region.distance_px).usual_px;
   return region;

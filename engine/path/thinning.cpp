@@ -2,7 +2,9 @@
 // deletion is checked again when it is carried out, so that no stroke vanishes or breaks.
 #include "path/thinning.hpp"
 
+#include <algorithm>
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -52,25 +54,23 @@ constexpr Rules kRules = make_rules();
 class Thinner {
  public:
   explicit Thinner(const cv::Mat& mask)
-      : image_(mask.clone()), queued_(static_cast<std::size_t>(mask.total()), 0) {
-    const auto step = static_cast<int>(image_.step[0]);
-    around_ = {-step, -step + 1, 1, step + 1, step, step - 1, -1, -step - 1};
-    pixels_ = image_.ptr<std::uint8_t>();
-  }
+      : image_(mask.clone()),
+        step_(static_cast<int>(image_.step[0])),
+        queued_(static_cast<std::size_t>(mask.total()), 0) {}
 
   cv::Mat run() {
     std::vector<int> active = borders();
+    std::vector<int> touched;
     while (!active.empty()) {
-      std::vector<int> touched;
+      touched.clear();
       pass(active, kRules.first, touched);
       active.insert(active.end(), touched.begin(), touched.end());
       pass(active, kRules.second, touched);
       active.clear();
+      const std::uint8_t* const pixels = image_.ptr<std::uint8_t>();
       for (const int p : touched) {
-        if (queued_[p] != 0) {
-          queued_[p] = 0;
-          if (pixels_[p] != 0) active.push_back(p);
-        }
+        queued_[p] = 0;
+        if (pixels[p] != 0) active.push_back(p);
       }
     }
     make_single();
@@ -78,57 +78,73 @@ class Thinner {
   }
 
  private:
-  [[nodiscard]] int code(int p) const {
-    int bits = 0;
-    for (int k = 0; k < 8; ++k) bits |= pixels_[p + around_[k]] << k;
-    return bits;
+  // The neighbours of `at` as bits.
+  [[nodiscard]] static int code(const std::uint8_t* at, std::ptrdiff_t step) {
+    const std::uint8_t* const up = at - step;
+    const std::uint8_t* const down = at + step;
+    return up[0] | up[1] << 1 | at[1] << 2 | down[1] << 3 | down[0] << 4 | down[-1] << 5 |
+           at[-1] << 6 | up[-1] << 7;
   }
 
   [[nodiscard]] std::vector<int> borders() const {
     std::vector<int> list;
-    const auto step = static_cast<int>(image_.step[0]);
+    const std::uint8_t* const pixels = image_.ptr<std::uint8_t>();
     for (int v = 1; v + 1 < image_.rows; ++v) {
-      for (int p = v * step + 1; p < v * step + image_.cols - 1; ++p) {
-        if (pixels_[p] != 0 && code(p) != 255) list.push_back(p);
+      for (int p = v * step_ + 1; p < v * step_ + image_.cols - 1; ++p) {
+        if (pixels[p] != 0 && code(pixels + p, step_) != 255) list.push_back(p);
       }
     }
     return list;
   }
 
   // Deletes what `rule` allows among `active`; neighbours of the deleted go to `touched`, once.
+  // Which pixels go is as good as random to a branch predictor: lists grow without branches.
   void pass(const std::vector<int>& active, const std::array<bool, 256>& rule,
             std::vector<int>& touched) {
-    marked_.clear();
+    std::uint8_t* const pixels = image_.ptr<std::uint8_t>();
+    std::uint8_t* const queued = queued_.data();
+    const std::ptrdiff_t step = step_;
+    const std::array<std::ptrdiff_t, 8> around{-step, -step + 1, 1,  step + 1,
+                                               step,  step - 1,  -1, -step - 1};
+    marked_.resize(std::max(marked_.size(), active.size()));
+    std::size_t marked = 0;
     for (const int p : active) {
-      if (pixels_[p] != 0 && rule[code(p)]) marked_.push_back(p);
+      marked_[marked] = p;
+      marked += pixels[p] & rule[static_cast<std::size_t>(code(pixels + p, step))] ? 1 : 0;
     }
-    for (const int p : marked_) {
-      if (pixels_[p] == 0 || !kRules.simple[code(p)]) continue;
-      pixels_[p] = 0;
-      for (const int offset : around_) {
-        const int q = p + offset;
-        if (pixels_[q] != 0 && queued_[q] == 0) {
-          queued_[q] = 1;
-          touched.push_back(q);
-        }
+    std::size_t count = touched.size();
+    for (std::size_t i = 0; i < marked; ++i) {
+      const int p = marked_[i];
+      if (pixels[p] == 0 || !kRules.simple[static_cast<std::size_t>(code(pixels + p, step))]) {
+        continue;
+      }
+      pixels[p] = 0;
+      if (touched.size() < count + around.size()) touched.resize(2 * (count + around.size()));
+      for (const std::ptrdiff_t offset : around) {
+        const std::ptrdiff_t q = p + offset;
+        const int added = pixels[q] & (queued[q] ^ 1);
+        queued[q] |= pixels[q];
+        touched[count] = static_cast<int>(q);
+        count += static_cast<std::size_t>(added);
       }
     }
+    touched.resize(count);
   }
 
   // Staircases become diagonals: afterwards two neighbours mean a line, one a tip.
   void make_single() {
-    const auto step = static_cast<int>(image_.step[0]);
+    std::uint8_t* const pixels = image_.ptr<std::uint8_t>();
     for (int v = 1; v + 1 < image_.rows; ++v) {
-      for (int p = v * step + 1; p < v * step + image_.cols - 1; ++p) {
-        if (pixels_[p] != 0 && kRules.corner[code(p)]) pixels_[p] = 0;
+      for (int p = v * step_ + 1; p < v * step_ + image_.cols - 1; ++p) {
+        if (pixels[p] == 0) continue;
+        if (kRules.corner[static_cast<std::size_t>(code(pixels + p, step_))]) pixels[p] = 0;
       }
     }
   }
 
   cv::Mat image_;
-  std::vector<std::uint8_t> queued_;
-  std::array<int, 8> around_{};
-  std::uint8_t* pixels_ = nullptr;
+  int step_;
+  std::vector<std::uint8_t> queued_;  // by pixel: 1 where it is in `touched`
   std::vector<int> marked_;
 };
 

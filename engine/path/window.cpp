@@ -4,10 +4,12 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <numbers>
 #include <opencv2/imgproc.hpp>
 #include <utility>
 
 #include "path/limits.hpp"
+#include "path/strokes.hpp"
 
 namespace flowdlo::path {
 namespace {
@@ -64,6 +66,13 @@ cv::Rect whole_pixels(const cv::Rect& box, int times, const cv::Size& frame) {
   part.width = std::max(1, part.width / times) * times;
   part.height = std::max(1, part.height / times) * times;
   return part & cv::Rect({0, 0}, frame);
+}
+
+// The smallest divisor of its sides that leaves the box no more than so many pixels.
+int times_to_fit(const cv::Rect& box, int pixels) {
+  int times = 1;
+  while (std::int64_t{box.width / times} * (box.height / times) > pixels) ++times;
+  return times;
 }
 
 cv::Mat times_larger(const cv::Mat& image, int times) {
@@ -164,10 +173,19 @@ std::vector<std::vector<Vector2f>> Magnified::enlarged(
   return lines;
 }
 
-int reduction_of(const cv::Rect& box) {
-  int times = 1;
-  while (std::int64_t{box.width / times} * (box.height / times) > kMostTracedPixels) ++times;
-  return times;
+int reduction_of(const Frame& frame, const cv::Rect& box) {
+  const int least = times_to_fit(box, kMostTracedPixels);
+  const int most = times_to_fit(box, kAlwaysTracedPixels);
+  if (least == most) return least;
+  cv::Mat mask;
+  cv::copyMakeBorder(mask_in(frame, box) > 127, mask, 1, 1, 1, 1, cv::BORDER_CONSTANT, {});
+  mask &= 1;
+  const std::int64_t length_px = stroke_length_px(mask);
+  if (length_px > std::int64_t{kMostStrokeSides} * (frame.width + frame.height)) return most;
+  // Along a diagonal a stroke is longer than it has border pixels.
+  const float most_px = std::numbers::sqrt2_v<float> * static_cast<float>(length_px);
+  const float width_px = static_cast<float>(cv::countNonZero(mask)) / most_px;
+  return std::clamp(static_cast<int>(width_px / kThickPx), least, most);
 }
 
 Reduced::Reduced(const Frame& frame, const cv::Rect& box, int times)

@@ -86,8 +86,9 @@ class Magnified : public Rescaled {
   Region region_;
 };
 
-/// By how much a mask in that box has to be reduced to be traced; 1: not at all.
-[[nodiscard]] int reduction_of(const cv::Rect& box);
+/// By how much a mask in that box is reduced to be traced; 1: not at all. A large box is traced in
+/// full only where its strokes are thin and no longer than a rope.
+[[nodiscard]] int reduction_of(const Frame& frame, const cv::Rect& box);
 
 /// At a whole fraction of its size, for masks too large to be traced as they are.
 class Reduced : public Rescaled {
@@ -102,7 +103,7 @@ class Reduced : public Rescaled {
 template <class Answer, class Trace>
 [[nodiscard]] Result<Answer> trace_reduced(const Frame& frame, const Trace& trace) {
   const cv::Rect box = bounding_box(frame);
-  const int times = reduction_of(box);
+  const int times = reduction_of(frame, box);
   if (times == 1) return trace(frame, nullptr);
   const Reduced reduced(frame, box, times);
   Result<Answer> result = trace(reduced.frame(), &reduced);

@@ -140,5 +140,19 @@ TEST_F(LiftAll, TheThesisPriorIsJudgedByTheRefinedOne) {
   EXPECT_GT(thesis->front().evidence.tube.mask_recall, 0.98F);
 }
 
+TEST_F(LiftAll, NoMoreThanTwoPathsAreLiftedThatAreTooLongForARope) {
+  path::Path there_and_back = wave_path(1.0, -1.0);
+  const auto sides = static_cast<std::size_t>(frame_.width + frame_.height);
+  const std::vector<Eigen::Vector2f> once = there_and_back.points_px;
+  std::vector<Eigen::Vector2f>& points = there_and_back.points_px;
+  while (points.size() < estimator::kMostLiftedSides * sides / 2) {
+    points.insert(points.end(), once.rbegin(), once.rend());
+    points.insert(points.end(), once.begin(), once.end());
+  }
+  there_and_back.bridged.assign(points.size(), 0);
+  EXPECT_EQ(lift({there_and_back, there_and_back, there_and_back}).size(), 2U);
+  EXPECT_EQ(lift({there_and_back, wave_path(1.0, -1.0)}).size(), 2U);
+}
+
 }  // namespace
 }  // namespace flowdlo

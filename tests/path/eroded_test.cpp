@@ -97,11 +97,14 @@ TEST(Eroded, AThreadOfAPixelLeavesNothing) {
   EXPECT_EQ(traced.error().code, ErrorCode::kNoPath);
 }
 
-TEST(Eroded, AMaskTooLargeToBeTracedAsItIsIsNotFit) {
+TEST(Eroded, OfAMaskTooLargeToBeTracedAsItIsHasItsWidthAndPlace) {
   Canvas large(4096, 4096);
-  large.stroke({{40, 40}, {4000, 4000}}, 60);
-  EXPECT_FALSE(path::fit_to_erode(large.frame()));
-  EXPECT_TRUE(path::fit_to_erode(painted(wave(60, 560), 12).frame()));
+  const Curve line{{40, 40}, {4000, 4000}};
+  large.stroke(line, 60);
+  const auto traced = path::trace_eroded(large.frame(), 60);
+  ASSERT_TRUE(traced);
+  EXPECT_NEAR(traced->rope_width_px, 60.0F, 6.0F);
+  EXPECT_LT(frechet(traced->ranked.front(), dense(line)), 45.0F);
 }
 
 }  // namespace

@@ -76,5 +76,27 @@ TEST(Graph, EverySegmentIsListedAtItsNodes) {
   }
 }
 
+TEST(Graph, HasAtLeastAsManySegmentsAsHolesMoreThanPieces) {
+  Canvas grid;
+  for (int u = 40; u <= 600; u += 80) grid.stroke({{u, 40}, {u, 440}}, 7);
+  for (int v = 40; v <= 440; v += 80) grid.stroke({{40, v}, {600, v}}, 7);
+  grid.stroke({{10, 10}, {300, 10}}, 5);
+  EXPECT_EQ(path::least_segments(path::clean(grid.frame())->mask), 7 * 5 - 2);
+  for (const int percent : {1, 3, 6}) {
+    Canvas holes;
+    holes.mask(cv::Rect{20, 20, 600, 440}) = 255;
+    cv::RNG random(static_cast<std::uint64_t>(percent));
+    for (int v = 24; v < 450; v += 12) {
+      for (int u = 24; u < 610; u += 12) {
+        if (random.uniform(0, 20) < percent) holes.erase({u, v, 9, 9});
+      }
+    }
+    const auto region = path::clean(holes.frame());
+    const int least = path::least_segments(region->mask);
+    EXPECT_GT(least, 10);
+    EXPECT_LE(least, alive(path::make_graph(path::thin(region->mask), *region))) << percent;
+  }
+}
+
 }  // namespace
 }  // namespace flowdlo::test

@@ -207,7 +207,7 @@ struct LargeFrame {
 
 TEST(StrandReading, OfALargeMaskIsTheFramesAgain) {
   const LargeFrame large;
-  ASSERT_GT(reduction_of(bounding_box(large.canvas.frame())), 1);
+  ASSERT_GT(reduction_of(large.canvas.frame(), bounding_box(large.canvas.frame())), 1);
   const auto traced = trace_strands(large.canvas.frame(), large.axes);
   ASSERT_TRUE(traced) << traced.error().message;
   EXPECT_NEAR(traced->rope_width_px, LargeFrame::kWidth_px, 4);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "canvas.hpp"
+#include "path/region.hpp"
 
 namespace flowdlo::test {
 namespace {
@@ -83,6 +84,34 @@ TEST(Window, NothingLeavesTheFrame) {
 
 TEST(Window, IsWidenedAsFarAsTheFrameReaches) {
   EXPECT_EQ(path::widened({5, 10, 20, 20}, 8, {30, 100}), cv::Rect(0, 2, 30, 36));
+}
+
+/// How a stroke so wide, or noise, from corner to corner of an image would be reduced.
+int reduction_for(const cv::Size& size, int width_px, int noise_percent = 0) {
+  Canvas canvas(size.width, size.height);
+  canvas.stroke({{0, 0}, {size.width - 1, size.height - 1}}, width_px);
+  cv::RNG random(3);
+  for (int v = 0; v < size.height; ++v) {
+    for (int u = 0; u < size.width; ++u) {
+      if (random.uniform(0, 100) < noise_percent) canvas.mask.at<std::uint8_t>(v, u) = 255;
+    }
+  }
+  const Frame frame = canvas.frame();
+  return path::reduction_of(frame, path::bounding_box(frame));
+}
+
+TEST(Reduction, AnImageOfFullHdIsReadAsItIs) {
+  EXPECT_EQ(reduction_for({1920, 1080}, 5), 1);
+  EXPECT_EQ(reduction_for({1920, 1080}, 90), 1);
+  EXPECT_EQ(reduction_for({1920, 1080}, 5, 50), 1);
+}
+
+TEST(Reduction, OfALargerOneOnlyThinStrokesAreReadAsTheyAre) {
+  EXPECT_EQ(reduction_for({3200, 2400}, 12), 1);
+  EXPECT_EQ(reduction_for({3200, 2400}, 40), 2);
+  EXPECT_EQ(reduction_for({3200, 2400}, 12, 30), 2) << "noise is no thin stroke";
+  EXPECT_EQ(reduction_for({4096, 4096}, 12), 2) << "more than is ever read";
+  EXPECT_EQ(reduction_for({4096, 4096}, 60), 3);
 }
 
 }  // namespace
