@@ -24,8 +24,8 @@ namespace {
 
 constexpr std::size_t kOfEroded = 2;  // hypotheses of the eroded mask,
 constexpr std::size_t kOfField = 4;   // and of the strand field
-constexpr double kSamePlace = 2;    // rope radii between the mean nodes of one and the same
-constexpr double kOddsScore = 1;    // score that makes a hypothesis e times as likely
+constexpr double kSamePlace = 2;      // rope radii between the mean nodes of one and the same
+constexpr double kOddsScore = 1;      // score that makes a hypothesis e times as likely
 
 // Expected before any reading was timed, in doubt too much: what the eroded mask takes for each
 // millisecond of the first reading, and the field for each pixel, which is twice the 4 us of one

@@ -45,7 +45,8 @@ Result<Traversals> trace_inner(const Frame& frame, float rope_width_px, const Tr
   window.restore(*result, {frame.width, frame.height});
   const float less_px = 2 * static_cast<float>(radius_px);
   result->rope_width_px = std::max(kLeastWidthPx, result->rope_width_px + less_px);
-  for (Path& path : result->ranked) path.width_px = std::max(kLeastWidthPx, path.width_px + less_px);
+  for (Path& path : result->ranked)
+    path.width_px = std::max(kLeastWidthPx, path.width_px + less_px);
   return result;
 }
 
