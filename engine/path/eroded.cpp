@@ -30,7 +30,8 @@ cv::Mat shrunk(const cv::Mat& mask, int radius_px) {
   return result > static_cast<float>(radius_px);
 }
 
-Result<Traversals> trace_inner(const Frame& frame, float rope_width_px, const TraceConfig& config) {
+Result<Traversals> trace_without_border(const Frame& frame, float rope_width_px,
+                                        const TraceConfig& config) {
   const cv::Rect box = bounding_box(frame);
   const int around_px = kAroundPx + kAroundWidths * static_cast<int>(std::lround(rope_width_px));
   const Window window{widened(box, around_px, {frame.width, frame.height}), 1};
@@ -58,7 +59,7 @@ Result<Traversals> trace_eroded(const Frame& frame, float rope_width_px,
     if (bounding_box(frame).empty()) return trace(frame, config);  // which says why there is none
     return trace_reduced<Traversals>(frame, [&](const Frame& seen, const Reduced* copy) {
       const float scale = copy == nullptr ? 1 : copy->scale();
-      return trace_inner(seen, scale * rope_width_px, config);
+      return trace_without_border(seen, scale * rope_width_px, config);
     });
   });
 }

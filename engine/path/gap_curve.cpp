@@ -16,12 +16,12 @@ using Eigen::Vector2f;
 constexpr int kFineRounds = 10;
 constexpr float kFineFactor = 1.15F;
 constexpr float kMostBending = 20.0F;
-constexpr float kWidths = 6.0F;         // a unit for each six widths of length
-constexpr float kShapeBending = 1.0F;   // the curve drawn bends as little as it can;
-constexpr float kLinkBending = 0.2F;    // as a link it had better bend on as the ends do
-constexpr float kOpenCost = 8.0F;       // where the background shows, at most;
-constexpr float kOpenWidths = 4.0F;     // most of it for this many widths;
-constexpr float kSlitCost = 1.0F;       // and however short, for tips show there
+constexpr float kWidths = 6.0F;        // a unit for each six widths of length
+constexpr float kShapeBending = 1.0F;  // the curve drawn bends as little as it can;
+constexpr float kLinkBending = 0.2F;   // as a link it had better bend on as the ends do
+constexpr float kOpenCost = 8.0F;      // where the background shows, at most;
+constexpr float kOpenWidths = 4.0F;    // most of it for this many widths;
+constexpr float kSlitCost = 1.0F;      // and however short, for tips show there
 constexpr float kSlitWidths = 0.3F;
 
 // No curve is shorter than its chord, nor as it is sampled than this share of it: with n samples

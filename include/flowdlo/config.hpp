@@ -62,7 +62,7 @@ struct Config {
   int threads = 0;           ///< of the CPU back end; 0: one for each core
 
   /// Milliseconds that an estimate may take; 0: as long as it does. Of the model, the strand field
-  /// and further readings of the mask, what would end too late is left out, going by what earlier
+  /// and the reading of the eroded mask, what would end too late is left out, going by what earlier
   /// frames took; Estimate::left_out says what. The first reading of the mask is never left out: it
   /// takes 5 to 30 ms, on masks that are no rope up to a second. With a limit an estimate depends
   /// on how busy the machine is.

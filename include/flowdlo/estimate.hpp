@@ -59,7 +59,7 @@ struct OneRope {
 enum class LeftOut {
   kModel,     ///< its draws: the estimate is a prior
   kField,     ///< the strand field, though there was doubt
-  kReadings,  ///< some further readings of the mask, though there was doubt
+  kReadings,  ///< the eroded mask, though there was doubt
 };
 
 /// Milliseconds of each stage of one call. With Config::threads = 1 the stages sum to total_ms;

@@ -161,7 +161,7 @@ enum {
 enum {
   FLOWDLO_LEFT_OUT_MODEL = 1,   /* the model's draws: the estimate is a prior */
   FLOWDLO_LEFT_OUT_FIELD = 2,   /* the strand field, though there was doubt */
-  FLOWDLO_LEFT_OUT_READINGS = 4 /* some further readings of the mask, though there was doubt */
+  FLOWDLO_LEFT_OUT_READINGS = 4 /* the eroded mask, though there was doubt */
 };
 
 /* flowdlo::Estimate of <flowdlo/estimate.hpp>, which says more of each field, without the reports

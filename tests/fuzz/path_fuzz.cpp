@@ -1,5 +1,5 @@
-// The path alone, on small masks: an error, or traversals that keep what path.hpp promises. As it
-// is and eroded.
+// The path alone, on small masks, as they are and eroded: an error, or traversals that keep what
+// path.hpp promises.
 #include "path/path.hpp"
 
 #include <cmath>
