@@ -23,7 +23,7 @@ namespace flowdlo::tools {
 namespace {
 
 namespace fs = std::filesystem;
-constexpr std::uint64_t kDefaultCount = 100;  // of the wide split, which has no end
+constexpr std::uint64_t kDefaultCount = 100;  // of splits that have no end
 constexpr std::uint64_t kMostOnASheet = 60;
 
 struct SynthOptions {
@@ -196,10 +196,12 @@ void add_synth_command(CLI::App& app, ExitCode& exit_code) {
   command->add_option("OUT", options->out, "Frame folders go to OUT/<index>_<scenario>/");
   command
       ->add_option("--split", options->split,
-                   "thesis (nine groups on a table, clean depth) or wide (sensors, occluders, "
-                   "hanging ropes) [wide]")
-      ->transform(CLI::CheckedTransformer(std::map<std::string, synth::Split>{
-          {"thesis", synth::Split::kThesis}, {"wide", synth::Split::kWide}}))
+                   "thesis (nine groups on a table, clean depth), wide (sensors, occluders, "
+                   "hanging ropes) or several (the same with two to nine ropes) [wide]")
+      ->transform(CLI::CheckedTransformer(
+          std::map<std::string, synth::Split>{{"thesis", synth::Split::kThesis},
+                                              {"wide", synth::Split::kWide},
+                                              {"several", synth::Split::kSeveral}}))
       ->type_name("NAME");
   command
       ->add_option("--part", options->part,
@@ -207,7 +209,7 @@ void add_synth_command(CLI::App& app, ExitCode& exit_code) {
       ->transform(CLI::CheckedTransformer(std::map<std::string, synth::Part>{
           {"training", synth::Part::kTraining}, {"validation", synth::Part::kValidation}}))
       ->type_name("NAME");
-  command->add_option("--count", options->count, "Scenes [thesis: all, wide: 100]")
+  command->add_option("--count", options->count, "Scenes [thesis: all, others: 100]")
       ->check(CLI::Range(1, 100000000));
   command->add_option("--first", options->first, "Index of the first scene")
       ->capture_default_str()

@@ -14,6 +14,7 @@
 #include "files/shown_name.hpp"
 #include "files/staged_files.hpp"
 #include "flowdlo/frame_folder.hpp"
+#include "frame/centerline_csv.hpp"
 
 namespace flowdlo::tools {
 namespace {
@@ -114,6 +115,12 @@ Result<void> SynthFolder::save(const synth::SyntheticFrame& frame) const {
   files::StagedFiles staged(durability);
   if (auto added = staged.add(temporary / "meta.json", synth::meta_json(frame.meta)); !added) {
     return added;
+  }
+  for (std::size_t k = 1; k < frame.ropes.size(); ++k) {
+    const auto file = temporary / fmt::format("truth_{}.csv", k);
+    if (auto added = staged.add(file, frame::format_centerline(frame.ropes[k].nodes)); !added) {
+      return added;
+    }
   }
   if (auto done = staged.commit(); !done) return done;
   std::error_code failure;

@@ -74,13 +74,16 @@ void mark_long_box(const View& view, const Box& box, Blocks& blocks) {
 
 }  // namespace
 
-Blocks blocks_of(const View& view, double radius_m, std::span<const Thing> things) {
+Blocks blocks_of(const View& view, std::span<const Rope> ropes, std::span<const Thing> things) {
   Blocks blocks;
   blocks.columns = (view.sensor->width + kBlock_px - 1) / kBlock_px;
   blocks.rows = (view.sensor->height + kBlock_px - 1) / kBlock_px;
   blocks.wanted.assign(static_cast<std::size_t>(blocks.columns * blocks.rows), 0);
-  for (std::size_t i = 0; i < view.curve.points.size(); i += 2) {
-    mark_ball(view, view.curve.points[i], 1.25 * radius_m, blocks);
+  for (std::size_t k = 0; k < ropes.size(); ++k) {
+    const auto& points = view.curves[k].points;
+    for (std::size_t i = 0; i < points.size(); i += 2) {
+      mark_ball(view, points[i], 1.25 * ropes[k].radius_m, blocks);
+    }
   }
   for (const Thing& thing : things) {
     for (const Capsule& capsule : thing.capsules) mark_capsule(view, capsule, blocks);

@@ -18,6 +18,7 @@ struct Blocks {
   std::vector<std::uint8_t> wanted;  ///< [rows, columns]
 };
 
-[[nodiscard]] Blocks blocks_of(const View& view, double radius_m, std::span<const Thing> things);
+[[nodiscard]] Blocks blocks_of(const View& view, std::span<const Rope> ropes,
+                               std::span<const Thing> things);
 
 }  // namespace flowdlo::synth

@@ -33,25 +33,30 @@ struct Chunks {
       high.push_back(most);
     }
   }
+  [[nodiscard]] bool near(std::size_t a, const Chunks& other, std::size_t b, double reach) const {
+    return ((low[a] - other.high[b]).array() <= reach).all() &&
+           ((other.low[b] - high[a]).array() <= reach).all();
+  }
   [[nodiscard]] bool near(std::size_t a, std::size_t b, double reach) const {
-    return ((low[a] - high[b]).array() <= reach).all() &&
-           ((low[b] - high[a]).array() <= reach).all();
+    return near(a, *this, b, reach);
   }
 };
 
 double side(const Vector2d& a, const Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
 
-void cross_chunks(std::span<const Vector2d> points, std::size_t a, std::size_t b,
-                  std::vector<Crossing>& found) {
-  const std::size_t end_a = std::min(points.size() - 1, (a + 1) * kChunk);
-  const std::size_t end_b = std::min(points.size() - 1, (b + 1) * kChunk);
+// Run `a` of one line against run `b` of another, or of the same one.
+void cross_chunks(std::span<const Vector2d> one, std::size_t a, std::span<const Vector2d> other,
+                  std::size_t b, std::vector<Crossing>& found) {
+  const bool same = one.data() == other.data();
+  const std::size_t end_a = std::min(one.size() - 1, (a + 1) * kChunk);
+  const std::size_t end_b = std::min(other.size() - 1, (b + 1) * kChunk);
   for (std::size_t i = a * kChunk; i < end_a; ++i) {
-    const Vector2d d = points[i + 1] - points[i];
-    for (std::size_t j = std::max(i + 2, b * kChunk); j < end_b; ++j) {
-      const Vector2d e = points[j + 1] - points[j];
+    const Vector2d d = one[i + 1] - one[i];
+    for (std::size_t j = std::max(same ? i + 2 : 0, b * kChunk); j < end_b; ++j) {
+      const Vector2d e = other[j + 1] - other[j];
       const double cross = side(d, e);
       if (std::abs(cross) < 1e-18) continue;
-      const Vector2d between = points[j] - points[i];
+      const Vector2d between = other[j] - one[i];
       const double t = side(between, e) / cross;
       const double s = side(between, d) / cross;
       if (t < 0 || t >= 1 || s < 0 || s >= 1) continue;
@@ -99,7 +104,19 @@ std::vector<Crossing> crossings(std::span<const Vector2d> points) {
   const Chunks<Vector2d> chunks(points);
   for (std::size_t a = 0; a < chunks.low.size(); ++a) {
     for (std::size_t b = a; b < chunks.low.size(); ++b) {
-      if (chunks.near(a, b, 0)) cross_chunks(points, a, b, found);
+      if (chunks.near(a, b, 0)) cross_chunks(points, a, points, b, found);
+    }
+  }
+  return found;
+}
+
+std::vector<Crossing> crossings(std::span<const Vector2d> a, std::span<const Vector2d> b) {
+  std::vector<Crossing> found;
+  const Chunks<Vector2d> of_a(a);
+  const Chunks<Vector2d> of_b(b);
+  for (std::size_t i = 0; i < of_a.low.size(); ++i) {
+    for (std::size_t j = 0; j < of_b.low.size(); ++j) {
+      if (of_a.near(i, of_b, j, 0)) cross_chunks(a, i, b, j, found);
     }
   }
   return found;
@@ -146,6 +163,25 @@ Nearness nearness(const Curve& curve, double radius_m) {
     longest = std::max(longest, run);
   }
   return {std::sqrt(least), static_cast<double>(longest) * curve.step_m};
+}
+
+double distance_m(const Curve& a, const Curve& b, double reach_m) {
+  const Chunks<Vector3d> of_a(a.points);
+  const Chunks<Vector3d> of_b(b.points);
+  double least = reach_m * reach_m;
+  for (std::size_t i = 0; i < of_a.low.size(); ++i) {
+    for (std::size_t j = 0; j < of_b.low.size(); ++j) {
+      if (!of_a.near(i, of_b, j, reach_m)) continue;
+      const std::size_t end_a = std::min(a.points.size(), (i + 1) * kChunk + 1);
+      const std::size_t end_b = std::min(b.points.size(), (j + 1) * kChunk + 1);
+      for (std::size_t k = i * kChunk; k < end_a; ++k) {
+        for (std::size_t l = j * kChunk; l < end_b; ++l) {
+          least = std::min(least, (a.points[k] - b.points[l]).squaredNorm());
+        }
+      }
+    }
+  }
+  return std::sqrt(least);
 }
 
 Centerline nodes_of(const Curve& curve) {

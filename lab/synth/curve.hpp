@@ -22,10 +22,10 @@ struct Curve {
   }
 };
 
-/// Two arclengths, in samples, at which a plane curve crosses itself; the sine of the angle.
+/// Two arclengths, in samples, at which plane curves cross; the sine of the angle.
 struct Crossing {
-  double first = 0;   ///< smaller one
-  double second = 0;  ///< larger one
+  double first = 0;   ///< of one curve with itself the smaller one
+  double second = 0;  ///< and the larger one
   double sine = 1;
 };
 
@@ -35,7 +35,11 @@ struct Crossing {
 /// Every sample replaced by the mean of those within `reach` samples; the ends stay.
 void smooth(std::vector<Vector3d>& points, int reach);
 
+/// Of a plane curve with itself.
 [[nodiscard]] std::vector<Crossing> crossings(std::span<const Vector2d> points);
+/// Of one plane curve with another: `first` is along `a`, `second` along `b`.
+[[nodiscard]] std::vector<Crossing> crossings(std::span<const Vector2d> a,
+                                              std::span<const Vector2d> b);
 
 /// Of the circles through samples two radii apart, metres.
 [[nodiscard]] double least_bend_radius_m(const Curve& curve, double radius_m);
@@ -47,6 +51,10 @@ struct Nearness {
 };
 
 [[nodiscard]] Nearness nearness(const Curve& curve, double radius_m);
+
+/// The least distance of two samples of different curves, metres, where it is below `reach_m`;
+/// `reach_m` where it is not.
+[[nodiscard]] double distance_m(const Curve& a, const Curve& b, double reach_m);
 
 /// [64, 3] uniform in arclength, Eq. (3.2); direction of Sec. 3.3: the smaller x first, then y, z.
 [[nodiscard]] Centerline nodes_of(const Curve& curve);

@@ -65,9 +65,9 @@ void spoil_edges(const View& view, const Picture& ideal, const DepthFaults& faul
   });
 }
 
-bool any_holds(const std::vector<Stretch>& stretches, double sample) {
+bool any_holds(const std::vector<Stretch>& stretches, const Surface& seen) {
   return std::any_of(stretches.begin(), stretches.end(),
-                     [&](const Stretch& s) { return s.holds(sample); });
+                     [&](const Stretch& s) { return s.holds(seen.rope, seen.along); });
 }
 
 void spoil_rope(const View& view, const Picture& ideal, const DepthFaults& faults,
@@ -81,22 +81,24 @@ void spoil_rope(const View& view, const Picture& ideal, const DepthFaults& fault
     const Eigen::Vector3f ray((u - view.camera.cx) / view.camera.fx,
                               (v - view.camera.cy) / view.camera.fy, 1);
     float& z = depth_m[seen.pixel];
-    if (any_holds(faults.sunk, seen.along) && view.has_ground) {
+    if (any_holds(faults.sunk, seen) && view.has_ground) {
       const double behind = view.ground.offset_m / view.ground.normal.dot(ray.cast<double>());
       if (behind > 0) z += 0.9F * (static_cast<float>(behind) - z);
     }
-    if (any_holds(faults.lost, seen.along)) z = 0;
-    if (any_holds(faults.black, seen.along) && noise.smooth(u, v, grain) < 0.62F) z = 0;
+    if (any_holds(faults.lost, seen)) z = 0;
+    if (any_holds(faults.black, seen) && noise.smooth(u, v, grain) < 0.62F) z = 0;
     const float facing = -seen.normal.dot(ray.normalized());
-    if (any_holds(faults.shiny, seen.along) && facing > 0.75F) z = 0;
+    if (any_holds(faults.shiny, seen) && facing > 0.75F) z = 0;
   }
 }
 
-void punch_holes(const View& view, double radius_m, int count, const PixelNoise& noise,
+void punch_holes(const View& view, std::span<const Rope> ropes, int count, const PixelNoise& noise,
                  std::vector<float>& depth_m) {
-  const auto& points = view.curve.points;
   for (int k = 0; k < count; ++k) {
     const auto salt = static_cast<std::uint32_t>(k);
+    const std::size_t rope = salt % ropes.size();
+    const double radius_m = ropes[rope].radius_m;
+    const auto& points = view.curves[rope].points;
     const auto at =
         static_cast<std::size_t>(noise.uniform(salt, 11) * static_cast<float>(points.size() - 1));
     const Vector2d middle = view.project(points[at]);
@@ -161,15 +163,16 @@ void round_to_units(bool whole_mm, std::vector<float>& depth_m) {
 
 }  // namespace
 
-std::vector<float> measured_depth(const View& view, const Picture& ideal, double radius_m,
-                                  const DepthFaults& faults, std::uint32_t seed) {
+std::vector<float> measured_depth(const View& view, const Picture& ideal,
+                                  std::span<const Rope> ropes, const DepthFaults& faults,
+                                  std::uint32_t seed) {
   std::vector<float> depth_m = ideal.depth_m;
   const PixelNoise noise(seed);
   spoil_rope(view, ideal, faults, noise, depth_m);
   if (faults.noise || faults.flying > 0 || faults.dropout > 0) {
     spoil_edges(view, ideal, faults, noise, depth_m);
   }
-  punch_holes(view, radius_m, faults.holes, noise, depth_m);
+  punch_holes(view, ropes, faults.holes, noise, depth_m);
   if (faults.noise && view.sensor->principle == DepthPrinciple::kStereo) {
     add_stereo_noise(view, noise, depth_m);
   } else if (faults.noise) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "synth/faults.hpp"
@@ -12,7 +13,7 @@ namespace flowdlo::synth {
 
 /// [height, width], metres, 0: none.
 [[nodiscard]] std::vector<float> measured_depth(const View& view, const Picture& ideal,
-                                                double radius_m, const DepthFaults& faults,
-                                                std::uint32_t seed);
+                                                std::span<const Rope> ropes,
+                                                const DepthFaults& faults, std::uint32_t seed);
 
 }  // namespace flowdlo::synth

@@ -17,8 +17,9 @@ Dice::Dice(const SceneKey& key, Use use, int frame)
 
 std::uint64_t Dice::stream_of(const SceneKey& key, Use use, int frame) {
   constexpr std::uint64_t kSynth = 0x53;  // no other user of Philox takes these streams
-  return (kSynth << 56) | (static_cast<std::uint64_t>(frame) << 16) |
-         (static_cast<std::uint64_t>(use) << 2) | (static_cast<std::uint64_t>(key.split) << 1) |
+  const auto split = static_cast<std::uint64_t>(key.split);
+  return (kSynth << 56) | (static_cast<std::uint64_t>(frame) << 16) | ((split >> 1) << 8) |
+         (static_cast<std::uint64_t>(use) << 2) | ((split & 1) << 1) |
          static_cast<std::uint64_t>(key.part);
 }
 

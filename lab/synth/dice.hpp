@@ -36,6 +36,10 @@ class Dice {
   double gaussian();
   bool chance(double probability);
   double sign() { return chance(0.5) ? 1.0 : -1.0; }
+  /// Below `count`; of one there is no choice, and no number is taken.
+  std::size_t any_of(std::size_t count) {
+    return count < 2 ? 0 : static_cast<std::size_t>(integer(0, static_cast<int>(count) - 1));
+  }
   /// An index, in proportion to the weights.
   std::size_t pick(std::initializer_list<double> weights);
 

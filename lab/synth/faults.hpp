@@ -1,6 +1,8 @@
 // Faults: what a sensor and a segmenter will get wrong in one scene.
 #pragma once
 
+#include <cstddef>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -9,12 +11,15 @@
 
 namespace flowdlo::synth {
 
-/// Part of the rope, in samples of its curve.
+/// Part of a rope, in samples of its curve.
 struct Stretch {
+  std::size_t rope = 0;
   double from = 0;
   double to = 0;
 
-  [[nodiscard]] bool holds(double sample) const { return sample >= from && sample <= to; }
+  [[nodiscard]] bool holds(std::size_t of, double sample) const {
+    return of == rope && sample >= from && sample <= to;
+  }
 };
 
 struct DepthFaults {
@@ -35,6 +40,7 @@ struct MaskFaults {
   int shift_px = 0;            ///< dilated (1) or eroded (-1)
   int specks = 0;
   std::vector<Stretch> gaps{};
+  int parted_px = 0;  ///< mask that is missing beside a rope that lies on another one
 };
 
 struct Faults {
@@ -46,6 +52,7 @@ struct Faults {
 };
 
 /// Of a scene of the wide split. Two scenes of five have sensor noise only.
-[[nodiscard]] Faults draw_faults(const Rope& rope, const View& view, bool dark, Dice& dice);
+[[nodiscard]] Faults draw_faults(std::span<const Rope> ropes, const View& view, bool dark,
+                                 Dice& dice);
 
 }  // namespace flowdlo::synth

@@ -25,15 +25,15 @@ struct Piece {
 // One radius long, and at least one and a half pixels.
 std::vector<Piece> pieces_of(const View& view, const Picture& ideal, std::span<const float> depth_m,
                              std::span<const std::uint8_t> mask) {
-  const auto& points = view.curve.points;
+  const auto& points = view.curves.front().points;
   double least_px = 1e9;
   for (const Vector3d& p : points) {
-    least_px = std::min(least_px, view.curve.step_m * view.camera.fx / p.z());
+    least_px = std::min(least_px, view.curves.front().step_m * view.camera.fx / p.z());
   }
   const auto each = static_cast<std::size_t>(std::clamp(std::ceil(1.5 / least_px), 2.0, 64.0));
   std::vector<Piece> pieces((points.size() + each - 1) / each);
   for (const Surface& surface : ideal.surfaces) {
-    if (surface.thing != kRopeThing) continue;
+    if (surface.thing != kRopeThing || surface.rope != 0) continue;
     Piece& piece =
         pieces[std::min(pieces.size() - 1, static_cast<std::size_t>(surface.along) / each)];
     ++piece.seen;
@@ -72,7 +72,7 @@ std::vector<std::pair<std::size_t, std::size_t>> runs(const std::vector<Piece>& 
 
 bool has_turn(const View& view, const std::vector<Piece>& pieces, std::size_t from, std::size_t to,
               double radius_m) {
-  const auto& points = view.curve.points;
+  const auto& points = view.curves.front().points;
   const double first = points[pieces[from].sample].z();
   const double last = points[pieces[to - 1].sample].z();
   for (std::size_t i = from; i < to; ++i) {
@@ -112,7 +112,7 @@ void find_holes(const View& view, const std::vector<Piece>& pieces, double piece
 void find(const View& view, const Rope& rope, const Picture& ideal, std::span<const float> depth_m,
           std::span<const std::uint8_t> mask, Meta& meta) {
   const auto pieces = pieces_of(view, ideal, depth_m, mask);
-  const double piece_m = view.curve.length_m() / static_cast<double>(pieces.size());
+  const double piece_m = view.curves.front().length_m() / static_cast<double>(pieces.size());
   int seen = 0;
   int masked = 0;
   int deep = 0;
@@ -129,18 +129,20 @@ void find(const View& view, const Rope& rope, const Picture& ideal, std::span<co
   if (meta.depth_share < kLeastDepth) meta.defects.depth_holes = true;
 
   std::vector<Vector2d> projected;
-  for (std::size_t i = 0; i < view.curve.points.size(); i += 2) {
-    projected.push_back(view.project(view.curve.points[i]));
+  for (std::size_t i = 0; i < view.curves.front().points.size(); i += 2) {
+    projected.push_back(view.project(view.curves.front().points[i]));
   }
   meta.crossings = static_cast<int>(crossings(projected).size());
   meta.intersection = meta.crossings > 0;
   meta.radius_m = rope.radius_m;
-  meta.length_m = view.curve.length_m();
-  meta.least_bend_radius_m = least_bend_radius_m(view.curve, rope.radius_m);
+  meta.length_m = view.curves.front().length_m();
+  meta.least_bend_radius_m = least_bend_radius_m(view.curves.front(), rope.radius_m);
   meta.width_px = 2 * rope.radius_m * view.camera.fx / view.distance_m;
-  const double tips = (view.curve.points.front() - view.curve.points.back()).norm();
-  meta.defects.touch = nearness(view.curve, rope.radius_m).contact_m > kTouch * rope.radius_m ||
-                       tips < kTipsTouch * rope.radius_m;
+  const double tips =
+      (view.curves.front().points.front() - view.curves.front().points.back()).norm();
+  meta.defects.touch =
+      nearness(view.curves.front(), rope.radius_m).contact_m > kTouch * rope.radius_m ||
+      tips < kTipsTouch * rope.radius_m;
   meta.defects.coil = rope.coil;
 }
 
@@ -162,14 +164,15 @@ void note(const Faults& faults, std::span<const Thing> things, const Picture& id
   int stretch = 0;  // pixels of black or shiny stretches without depth
   int stray = 0;    // mask beyond the rope
   int bare = 0;     // rope without mask
-  const auto held = [](const std::vector<Stretch>& all, float along) {
-    return std::any_of(all.begin(), all.end(), [&](const Stretch& s) { return s.holds(along); });
+  const auto held = [](const std::vector<Stretch>& all, const Surface& seen) {
+    return std::any_of(all.begin(), all.end(),
+                       [&](const Stretch& s) { return s.holds(seen.rope, seen.along); });
   };
   for (const Surface& surface : ideal.surfaces) {
     if (surface.thing != kRopeThing) continue;
     bare += mask[surface.pixel] <= 127 ? 1 : 0;
     if (depth_m[surface.pixel] > 0) continue;
-    stretch += held(faults.depth.black, surface.along) || held(faults.depth.shiny, surface.along);
+    stretch += held(faults.depth.black, surface) || held(faults.depth.shiny, surface);
   }
   for (std::size_t i = 0; i < mask.size(); ++i) stray += mask[i] > 127 && ideal.mask[i] == 0;
   defects.black_or_shiny = stretch > 0;
@@ -178,7 +181,7 @@ void note(const Faults& faults, std::span<const Thing> things, const Picture& id
   defects.edge_dropout = faults.depth.dropout > 0;
   defects.mask_ragged = faults.mask.ragged_px > 0 && stray + bare > 0;
   defects.mask_specks = faults.mask.specks > 0 && stray > 0;
-  defects.mask_gaps = !faults.mask.gaps.empty() && bare > 0;
+  defects.mask_gaps = (!faults.mask.gaps.empty() || faults.mask.parted_px > 0) && bare > 0;
   defects.mask_shifted = faults.mask.shift_px != 0 && stray + bare > 0;
 }
 

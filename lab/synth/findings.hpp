@@ -10,7 +10,7 @@
 
 namespace flowdlo::synth {
 
-/// Fills lengths, shares, crossings and the measured flags of `meta`.
+/// Fills lengths, shares, crossings and the measured flags of `meta`; `rope` is the first one.
 void find(const View& view, const Rope& rope, const Picture& ideal, std::span<const float> depth_m,
           std::span<const std::uint8_t> mask, Meta& meta);
 

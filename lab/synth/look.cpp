@@ -97,14 +97,14 @@ struct Shader {
 };
 
 // Two sets of strands that wind around the rope.
-float braid(const View& view, const Surface& seen, const Vector3f& point, double radius_m) {
-  const auto& points = view.curve.points;
+float braid(const Curve& curve, const Surface& seen, const Vector3f& point, double radius_m) {
+  const auto& points = curve.points;
   const auto i = std::min(points.size() - 2, static_cast<std::size_t>(seen.along));
   const Vector3d tangent = (points[i + 1] - points[i]).normalized();
   const Vector3d side = tangent.cross(Vector3d::UnitZ()).normalized();
   const Vector3d out = point.cast<double>() - points[i];
   const double angle = std::atan2(out.dot(tangent.cross(side)), out.dot(side));
-  const double turns = static_cast<double>(seen.along) * view.curve.step_m / radius_m;
+  const double turns = static_cast<double>(seen.along) * curve.step_m / radius_m;
   const double weave = std::sin(turns * 1.6 + 3 * angle) * std::sin(turns * 1.6 - 3 * angle);
   return 1.0F + 0.12F * static_cast<float>(weave);
 }
@@ -136,9 +136,9 @@ const Material& draw_material(Dice& dice) {
 }
 
 std::vector<std::uint8_t> colored(const View& view, const Tracer& tracer, const Picture& picture,
-                                  std::span<const Thing> things, const Material& material,
-                                  double radius_m, bool lively, std::span<const Window> windows,
-                                  Dice& dice) {
+                                  std::span<const Thing> things, std::span<const Rope> ropes,
+                                  std::span<const Material* const> materials, bool lively,
+                                  std::span<const Window> windows, Dice& dice) {
   const auto width = static_cast<std::size_t>(view.sensor->width);
   const std::size_t pixels = picture.depth_m.size();
   const Shader shader{view, tracer, draw_light(view, dice)};
@@ -158,8 +158,9 @@ std::vector<std::uint8_t> colored(const View& view, const Tracer& tracer, const 
     wanted[seen.pixel] = false;  // done
     const Vector3f point = seen.z_m * ray_of(seen.pixel);
     const bool rope = seen.thing == kRopeThing;
-    Vector3f albedo = (rope ? material.color_bgr : things[seen.thing].color_bgr).cast<float>();
-    if (rope) albedo *= braid(view, seen, point, radius_m);
+    Vector3f albedo =
+        (rope ? materials[seen.rope]->color_bgr : things[seen.thing].color_bgr).cast<float>();
+    if (rope) albedo *= braid(view.curves[seen.rope], seen, point, ropes[seen.rope].radius_m);
     image[seen.pixel] = shader.shade(albedo, point, seen.normal, rope ? gloss : 0.5F * gloss);
   }
   for (std::size_t i = 0; i < pixels; ++i) {

@@ -20,13 +20,11 @@ struct Material {
 /// One of the thesis' five, Sec. 4.1.1.
 [[nodiscard]] const Material& draw_material(Dice& dice);
 
-/// [height, width, 3], black outside the windows. The light, the ground's texture and the camera's
-/// noise come from `dice`.
-[[nodiscard]] std::vector<std::uint8_t> colored(const View& view, const Tracer& tracer,
-                                                const Picture& picture,
-                                                std::span<const Thing> things,
-                                                const Material& material, double radius_m,
-                                                bool lively, std::span<const Window> windows,
-                                                Dice& dice);
+/// [height, width, 3], black outside the windows; `materials` are the ropes'. The light, the
+/// ground's texture and the camera's noise come from `dice`.
+[[nodiscard]] std::vector<std::uint8_t> colored(
+    const View& view, const Tracer& tracer, const Picture& picture, std::span<const Thing> things,
+    std::span<const Rope> ropes, std::span<const Material* const> materials, bool lively,
+    std::span<const Window> windows, Dice& dice);
 
 }  // namespace flowdlo::synth

@@ -57,11 +57,31 @@ void fray(const std::vector<std::uint32_t>& border, int reach, bool inwards,
   }
 }
 
+// Takes away what lies beside a rope that is nearer: the lower one's mask ends before the upper
+// one.
+void part(const Picture& ideal, int reach, Canvas& canvas) {
+  const auto labels = labels_of(ideal);
+  for (const Surface& seen : ideal.surfaces) {
+    if (seen.thing != kRopeThing) continue;
+    const int u = static_cast<int>(seen.pixel) % canvas.width;
+    const int v = static_cast<int>(seen.pixel) / canvas.width;
+    bool below = false;
+    for (int y = std::max(0, v - reach); y <= std::min(canvas.height - 1, v + reach); ++y) {
+      for (int x = std::max(0, u - reach); x <= std::min(canvas.width - 1, u + reach); ++x) {
+        const auto other = static_cast<std::size_t>(y) * canvas.width + x;
+        below = below || (labels[other] > 0 && labels[other] != seen.rope + 1 &&
+                          ideal.depth_m[other] < seen.z_m);
+      }
+    }
+    if (below) canvas.paint(u, v, 0);
+  }
+}
+
 void scatter_specks(const View& view, int count, int scale, const PixelNoise& noise,
                     Canvas& canvas) {
-  const auto& points = view.curve.points;
   for (int k = 0; k < count; ++k) {
     const auto salt = static_cast<std::uint32_t>(k);
+    const auto& points = view.curves[salt % view.curves.size()].points;
     float u = noise.uniform(salt, 21) * static_cast<float>(canvas.width);
     float v = noise.uniform(salt, 22) * static_cast<float>(canvas.height);
     if (noise.uniform(salt, 23) < 0.5F) {  // near the rope
@@ -77,6 +97,15 @@ void scatter_specks(const View& view, int count, int scale, const PixelNoise& no
 }
 
 }  // namespace
+
+std::vector<std::uint16_t> labels_of(const Picture& ideal) {
+  std::vector<std::uint16_t> labels(ideal.mask.size(), 0);
+  for (const Surface& seen : ideal.surfaces) {
+    if (seen.thing != kRopeThing) continue;
+    labels[seen.pixel] = static_cast<std::uint16_t>(seen.rope + 1);
+  }
+  return labels;
+}
 
 std::vector<std::uint8_t> segmented_mask(const View& view, const Picture& ideal,
                                          const MaskFaults& faults, std::uint32_t seed) {
@@ -98,9 +127,10 @@ std::vector<std::uint8_t> segmented_mask(const View& view, const Picture& ideal,
   }
   for (const Stretch& gap : faults.gaps) {
     for (const Surface& seen : ideal.surfaces) {
-      if (seen.thing == kRopeThing && gap.holds(seen.along)) mask[seen.pixel] = 0;
+      if (seen.thing == kRopeThing && gap.holds(seen.rope, seen.along)) mask[seen.pixel] = 0;
     }
   }
+  if (faults.parted_px > 0) part(ideal, scale * faults.parted_px, canvas);
   if (faults.specks > 0) scatter_specks(view, faults.specks, scale, noise, canvas);
   return mask;
 }

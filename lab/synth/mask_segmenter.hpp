@@ -9,6 +9,9 @@
 
 namespace flowdlo::synth {
 
+/// [height, width], 0 or 1 + which rope a pixel sees.
+[[nodiscard]] std::vector<std::uint16_t> labels_of(const Picture& ideal);
+
 /// [height, width], 0 or 255.
 [[nodiscard]] std::vector<std::uint8_t> segmented_mask(const View& view, const Picture& ideal,
                                                        const MaskFaults& faults,

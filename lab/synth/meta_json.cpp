@@ -31,6 +31,7 @@ nlohmann::ordered_json json_of(const Defects& defects) {
 std::string meta_json(const Meta& meta) {
   const nlohmann::ordered_json json = {
       {"scenario", meta.scenario},
+      {"ropes", meta.ropes},
       {"material", meta.material},
       {"hsv_band", {{"low", meta.band.low}, {"high", meta.band.high}}},
       {"radius_m", meta.radius_m},

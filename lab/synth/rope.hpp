@@ -4,6 +4,7 @@
 #include <array>
 #include <optional>
 #include <string_view>
+#include <vector>
 
 #include "synth/curve.hpp"
 #include "synth/dice.hpp"
@@ -18,7 +19,11 @@ struct Rope {
   int grippers = 0;  ///< of a hanging rope: 1 holds its first end, 2 hold both
   bool coil = false;
   bool square_ends = false;  ///< cut square; otherwise round caps reach a radius beyond the curve
+  bool closed = false;       ///< a ring: the curve's last point is its first
 };
+
+/// The ropes of a scene, longest first; all lie on the table, or all hang.
+using Ropes = std::vector<Rope>;
 
 inline constexpr std::array<std::string_view, 9> kThesisScenarios = {"C",
                                                                      "S",
@@ -33,9 +38,14 @@ inline constexpr std::array<std::string_view, 9> kWideScenarios = {
     "table",   "crossing",     "crossings", "hanging",   "hanging-loops",
     "hairpin", "side-by-side", "coil",      "ends-touch"};
 
+inline constexpr std::array<std::string_view, 5> kSeveralScenarios = {
+    "ropes-crossing", "ropes-touching", "ropes-hanging", "ropes-ring", "ropes-leaving"};
+
 /// Strands at least 1.95 radii apart, no bend tighter than 3 radii; empty when an attempt failed.
 [[nodiscard]] std::optional<Rope> try_thesis_rope(std::string_view scenario, Dice& dice);
 [[nodiscard]] std::optional<Rope> try_wide_rope(std::string_view scenario, Dice& dice);
+/// Two to nine of them; also strands of different ropes are that far apart.
+[[nodiscard]] std::optional<Ropes> try_several_ropes(std::string_view scenario, Dice& dice);
 
 /// What every rope must be.
 [[nodiscard]] bool sound(const Rope& rope);

@@ -20,13 +20,24 @@ const std::array<std::uint64_t, 9>& counts_of(Part part) {
 
 }  // namespace
 
-std::string_view name_of(Split split) { return split == Split::kThesis ? "thesis" : "wide"; }
+std::string_view name_of(Split split) {
+  switch (split) {
+    case Split::kThesis:
+      return "thesis";
+    case Split::kWide:
+      return "wide";
+    case Split::kSeveral:
+      return "several";
+  }
+  return "";
+}
 
 std::string_view name_of(Part part) { return part == Part::kTraining ? "training" : "validation"; }
 
 std::optional<Split> split_of(std::string_view name) {
   if (name == "thesis") return Split::kThesis;
   if (name == "wide") return Split::kWide;
+  if (name == "several") return Split::kSeveral;
   return std::nullopt;
 }
 
@@ -37,7 +48,7 @@ std::optional<Part> part_of(std::string_view name) {
 }
 
 std::uint64_t scene_count(Split split, Part part) {
-  if (split == Split::kWide) return 0;
+  if (split != Split::kThesis) return 0;
   std::uint64_t sum = 0;
   for (const std::uint64_t count : counts_of(part)) sum += count;
   return sum;
@@ -45,6 +56,7 @@ std::uint64_t scene_count(Split split, Part part) {
 
 std::span<const std::string_view> scenarios(Split split) {
   if (split == Split::kThesis) return kThesisScenarios;
+  if (split == Split::kSeveral) return kSeveralScenarios;
   return kWideScenarios;
 }
 

@@ -20,14 +20,15 @@
 namespace flowdlo::synth {
 namespace {
 
-constexpr int kAttempts = 400;          // of rope and view; one in a few succeeds
-constexpr int kStagings = 6;            // of what stands around a rope
-constexpr double kLeastVisible = 0.55;  // share of the rope that its occluders leave
-constexpr int kLeastPixels = 120;       // of rope
+constexpr int kAttempts = 400;           // of rope and view; one in a few succeeds
+constexpr int kStagings = 6;             // of what stands around a rope
+constexpr double kLeastVisible = 0.55;   // share of the rope that its occluders leave
+constexpr double kLeastOfSeveral = 0.3;  // share of each, of several that may leave the image
+constexpr int kLeastPixels = 120;        // of rope
 
 // Everything before the first ray.
 struct Stage {
-  Rope rope;
+  Ropes ropes;
   View view;
   Faults faults;
   std::vector<Thing> things;
@@ -36,25 +37,26 @@ struct Stage {
 std::string_view scenario_of(const SceneKey& key) {
   if (key.split == Split::kThesis) return thesis_group(key.part, key.index);
   Dice dice(key, Use::kScenario);
+  if (key.split == Split::kSeveral) return kSeveralScenarios[dice.pick({30, 20, 20, 15, 15})];
   return kWideScenarios[dice.pick({18, 13, 14, 11, 12, 8, 8, 9, 7})];
 }
 
 bool set_up_thesis(std::string_view scenario, Dice& ropes, Dice& views, Stage& stage) {
   auto rope = try_thesis_rope(scenario, ropes);
   if (!rope) return false;
-  auto view = try_thesis_view(*rope, views);
+  auto view = try_thesis_view({&*rope, 1}, views);
   if (!view) return false;
-  stage.rope = std::move(*rope);
+  stage.ropes = {std::move(*rope)};
   stage.view = std::move(*view);
   return true;
 }
 
-bool set_up_wide(std::string_view scenario, Dice& ropes, Dice& views, Stage& stage) {
-  auto rope = try_wide_rope(scenario, ropes);
-  if (!rope) return false;
-  for (int k = 0; k < 3; ++k) {  // a rope is dear, a view is cheap
-    if (auto view = try_wide_view(*rope, views)) {
-      stage.rope = std::move(*rope);
+// Ropes are dear, a view is cheap.
+template <class TryView>
+bool set_up_view(Ropes ropes, TryView try_view, Dice& views, Stage& stage) {
+  for (int k = 0; k < 3; ++k) {
+    if (auto view = try_view(ropes, views)) {
+      stage.ropes = std::move(ropes);
       stage.view = std::move(*view);
       return true;
     }
@@ -62,26 +64,52 @@ bool set_up_wide(std::string_view scenario, Dice& ropes, Dice& views, Stage& sta
   return false;
 }
 
-void furnish(Stage& stage, Dice& dice) {
-  stage.things.clear();
-  if (stage.rope.hanging) add_grippers(stage.view, stage.rope, dice, stage.things);
-  if (stage.faults.clutter) add_clutter(stage.view, stage.rope, dice, stage.things);
-  if (stage.faults.bars) add_bars(stage.view, stage.rope.radius_m, dice, stage.things);
-  if (stage.faults.hand) add_hand(stage.view, stage.rope.radius_m, dice, stage.things);
+bool set_up_wide(std::string_view scenario, Dice& ropes, Dice& views, Stage& stage) {
+  auto rope = try_wide_rope(scenario, ropes);
+  return rope && set_up_view({std::move(*rope)}, try_wide_view, views, stage);
 }
 
+bool set_up_several(std::string_view scenario, Dice& dice, Dice& views, Stage& stage) {
+  auto ropes = try_several_ropes(scenario, dice);
+  if (!ropes) return false;
+  const bool near = scenario == "ropes-leaving";
+  return set_up_view(*std::move(ropes), near ? try_near_view : try_wide_view, views, stage);
+}
+
+void furnish(Stage& stage, Dice& dice) {
+  stage.things.clear();
+  double radius_m = 0;
+  for (std::size_t k = 0; k < stage.ropes.size(); ++k) {
+    const Rope& rope = stage.ropes[k];
+    radius_m = std::max(radius_m, rope.radius_m);
+    if (rope.hanging) add_grippers(stage.view, rope, stage.view.curves[k], dice, stage.things);
+  }
+  const bool hanging = stage.ropes.front().hanging;
+  if (stage.faults.clutter) add_clutter(stage.view, radius_m, hanging, dice, stage.things);
+  if (stage.faults.bars) add_bars(stage.view, radius_m, dice, stage.things);
+  if (stage.faults.hand) add_hand(stage.view, radius_m, dice, stage.things);
+}
+
+// Of each rope, in shares of its length and in pixels.
 bool shows_enough(const Stage& stage, const Picture& picture) {
-  const auto count = stage.view.curve.points.size();
-  std::vector<bool> seen(count / 8 + 1, false);
-  int pixels = 0;
+  const std::size_t ropes = stage.ropes.size();
+  std::vector<std::vector<bool>> seen;
+  for (const Curve& curve : stage.view.curves) seen.emplace_back(curve.points.size() / 8 + 1);
+  std::vector<int> pixels(ropes, 0);
   for (const Surface& surface : picture.surfaces) {
     if (surface.thing != kRopeThing) continue;
-    ++pixels;
-    seen[static_cast<std::size_t>(surface.along) / 8] = true;
+    ++pixels[surface.rope];
+    seen[surface.rope][static_cast<std::size_t>(surface.along) / 8] = true;
   }
-  const auto visible = std::count(seen.begin(), seen.end(), true);
-  return pixels >= kLeastPixels &&
-         static_cast<double>(visible) >= kLeastVisible * static_cast<double>(seen.size());
+  const double least = ropes == 1 ? kLeastVisible : kLeastOfSeveral;
+  for (std::size_t k = 0; k < ropes; ++k) {
+    const auto visible = std::count(seen[k].begin(), seen[k].end(), true);
+    if (pixels[k] < kLeastPixels ||
+        static_cast<double>(visible) < least * static_cast<double>(seen[k].size())) {
+      return false;
+    }
+  }
+  return true;
 }
 
 Result<void> check(Split split, Part part, std::uint64_t index, int frame) {
@@ -111,16 +139,17 @@ Meta identity_of(const SceneKey& key, std::string_view scenario, int frame) {
 }
 
 void describe(const Stage& stage, const Material& material, Meta& meta) {
+  meta.ropes = static_cast<int>(stage.ropes.size());
   meta.material = material.name;
   meta.band = material.band;
-  meta.hanging = stage.rope.hanging;
-  meta.square_ends = stage.rope.square_ends;
+  meta.hanging = stage.ropes.front().hanging;
+  meta.square_ends = stage.ropes.front().square_ends;
   meta.camera = stage.view.sensor->name;
   meta.distance_m = stage.view.distance_m;
   meta.tilt_deg = stage.view.tilt_rad * 180 / std::numbers::pi;
 }
 
-// A scene of a key: the rope, its view and things, and the ideal picture of it.
+// A scene of a key: the ropes, their view and things, and the ideal picture of them.
 class Scene {
  public:
   Scene(const SceneKey& key, std::string_view scenario)
@@ -131,27 +160,30 @@ class Scene {
 
  private:
   Result<bool> stage_once(Dice& ropes, Dice& views, Dice& dice);
+  void choose_materials();
 
   SceneKey key_;
   Dice look_;
-  const Material* material_ = nullptr;
+  const Material* material_ = nullptr;      // of the first rope,
+  std::vector<const Material*> materials_;  // and of all
   std::string_view scenario_;
   Stage stage_;
   std::optional<Tracer> tracer_;
   Picture picture_;
 };
 
-// True when this attempt shows enough of its rope.
+// True when this attempt shows enough of its ropes.
 Result<bool> Scene::stage_once(Dice& ropes, Dice& views, Dice& dice) {
-  const bool wide = key_.split == Split::kWide;
-  const bool ready = wide ? set_up_wide(scenario_, ropes, views, stage_)
-                          : set_up_thesis(scenario_, ropes, views, stage_);
-  if (!ready) return false;
+  const bool thesis = key_.split == Split::kThesis;
+  const auto set_up = thesis                          ? set_up_thesis
+                      : key_.split == Split::kSeveral ? set_up_several
+                                                      : set_up_wide;
+  if (!set_up(scenario_, ropes, views, stage_)) return false;
   stage_.faults = {};
-  if (wide) stage_.faults = draw_faults(stage_.rope, stage_.view, material_->dark, dice);
+  if (!thesis) stage_.faults = draw_faults(stage_.ropes, stage_.view, material_->dark, dice);
   for (int k = 0; k < kStagings; ++k) {
     furnish(stage_, dice);
-    auto tracer = Tracer::create(stage_.view, stage_.rope, stage_.things);
+    auto tracer = Tracer::create(stage_.view, stage_.ropes, stage_.things);
     if (!tracer) return tracer.error();
     tracer_.emplace(std::move(*tracer));
     picture_ = tracer_->take_picture();
@@ -159,6 +191,13 @@ Result<bool> Scene::stage_once(Dice& ropes, Dice& views, Dice& dice) {
     if (stage_.things.empty()) return false;
   }
   return false;
+}
+
+// Half of all sets are ropes of one kind, as a workshop has them.
+void Scene::choose_materials() {
+  materials_.assign(stage_.ropes.size(), material_);
+  if (stage_.ropes.size() < 2 || look_.chance(0.5)) return;
+  for (std::size_t k = 1; k < materials_.size(); ++k) materials_[k] = &draw_material(look_);
 }
 
 Result<void> Scene::set_up() {
@@ -169,7 +208,10 @@ Result<void> Scene::set_up() {
   for (int k = 0; k < kAttempts; ++k) {
     const auto done = stage_once(ropes, views, things);
     if (!done) return done.error();
-    if (*done) return {};
+    if (*done) {
+      choose_materials();
+      return {};
+    }
   }
   return Error{ErrorCode::kInternal,
                fmt::format("make_frame: no rope of scene {} fits its view in {} attempts",
@@ -188,21 +230,23 @@ SyntheticFrame Scene::taken(const Render& render) const {
   folder.width = view.sensor->width;
   folder.height = view.sensor->height;
   folder.intrinsics = view.camera;
-  folder.depth_m =
-      measured_depth(view, picture_, stage_.rope.radius_m, stage_.faults.depth, sensor.word());
+  folder.depth_m = measured_depth(view, picture_, stage_.ropes, stage_.faults.depth, sensor.word());
   folder.mask = segmented_mask(view, picture_, stage_.faults.mask, mask.word());
-  folder.truth = nodes_of(view.curve);
-  if (render.dense) {
-    result.dense = {{view.curve}, stage_.rope.radius_m, picture_.depth_m, picture_.mask};
+  for (std::size_t k = 0; k < view.curves.size(); ++k) {
+    const Rope& rope = stage_.ropes[k];
+    result.ropes.push_back({nodes_of(view.curves[k]), rope.radius_m, rope.closed});
   }
+  folder.truth = result.ropes.front().nodes;
+  if (key_.split == Split::kSeveral) folder.instances = labels_of(picture_);
+  if (render.dense) result.dense = {view.curves, picture_.depth_m, picture_.mask};
   if (render.color) {
     Dice light(key_, Use::kLook, render.frame + 1);
     const auto windows = render.windows ? render.windows(result)
                                         : std::vector<Window>{{0, 0, folder.width, folder.height}};
-    folder.color_bgr = colored(view, *tracer_, picture_, stage_.things, *material_,
-                               stage_.rope.radius_m, key_.split == Split::kWide, windows, light);
+    folder.color_bgr = colored(view, *tracer_, picture_, stage_.things, stage_.ropes, materials_,
+                               key_.split != Split::kThesis, windows, light);
   }
-  find(view, stage_.rope, picture_, folder.depth_m, folder.mask, result.meta);
+  find(view, stage_.ropes.front(), picture_, folder.depth_m, folder.mask, result.meta);
   note(stage_.faults, stage_.things, picture_, folder.depth_m, folder.mask, result.meta);
   return result;
 }

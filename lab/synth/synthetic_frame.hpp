@@ -1,4 +1,4 @@
-// SyntheticFrame: a rope rendered with everything known about it. A frame is a pure function of
+// SyntheticFrame: ropes rendered with everything known about them. A frame is a pure function of
 // split, part, seed and index, so that no data set needs to be stored.
 #pragma once
 
@@ -20,7 +20,8 @@
 namespace flowdlo::synth {
 
 /// kThesis: nine groups on a table, 0.3 to 0.5 m away, clean depth. kWide: whatever a user brings.
-enum class Split { kThesis, kWide };
+/// kSeveral: the same with two to nine ropes in one mask.
+enum class Split { kThesis, kWide, kSeveral };
 
 /// The two never share a scene, whatever the seeds: the part is a bit of every random counter.
 enum class Part { kTraining, kValidation };
@@ -65,6 +66,7 @@ struct Defects {
 
 struct Meta {
   std::string scenario;  ///< one of scenarios()
+  int ropes = 1;         ///< all else here is of the first, which is the longest
   std::string material;  ///< "blue", "red", "green", "cyan-green", "dark-gray"
   HsvBand band;          ///< holds the rope's colour where it is lit
   double radius_m = 0;
@@ -111,22 +113,30 @@ struct Meta {
 /// "000012_coil", and "_003" behind it for any frame but 0. From scenario, index and frame alone.
 [[nodiscard]] std::string folder_name(const Meta& meta);
 
-/// Where every rope of a scene runs, and what an ideal camera would see of it.
+/// Where every rope of a scene runs, in the order of SyntheticFrame::ropes, and what an ideal
+/// camera would see of it.
 struct DenseTruth {
   std::vector<Curve> curves;       ///< camera frame; samples half a radius apart or less
-  double radius_m = 0;             ///< of all of them
   std::vector<float> depth_m;      ///< [height, width], without noise; 0: nothing in reach
   std::vector<std::uint8_t> mask;  ///< [height, width], 255: rope
 };
 
+/// One rope of a frame.
+struct TrueRope {
+  Centerline nodes{};  ///< [64, 3] as truth()
+  double radius_m = 0;
+  bool closed = false;  ///< a ring: the last node is the first
+};
+
 struct SyntheticFrame {
-  FrameFolder folder;  ///< owns the pixels; its truth is always set
+  FrameFolder folder;  ///< owns the pixels; its truth is always set, its labels of several ropes
   Meta meta;
+  std::vector<TrueRope> ropes;      ///< longest first; label k + 1 of folder.instances is rope k's
   std::optional<DenseTruth> dense;  ///< where Render::dense asks for it
 
   /// Views into this object.
   [[nodiscard]] Frame frame() const { return folder.frame(); }
-  /// [64, 3] uniform in arclength over the whole rope, hidden parts included.
+  /// [64, 3] uniform in arclength over the whole first rope, hidden parts included.
   [[nodiscard]] const Centerline& truth() const { return *folder.truth; }
 };
 
@@ -140,16 +150,16 @@ struct Window {
 
 /// What to render besides depth and mask.
 struct Render {
-  bool color = true;  ///< false: color_bgr stays empty, for training records; all else is the same
-  int frame = 0;      ///< of this static scene; others differ in sensor noise and light alone.
-                      ///< 0 plays the role of the thesis' representative frame 50, Sec. 4.1.1
+  bool color = true;   ///< false: color_bgr stays empty, for training records; all else is the same
+  int frame = 0;       ///< of this static scene; others differ in sensor noise and light alone.
+                       ///< 0 plays the role of the thesis' representative frame 50, Sec. 4.1.1
   bool dense = false;  ///< fill SyntheticFrame::dense
   /// The only parts that get colours, of a frame that has all but these; the rest stays black.
   /// Colours take most of a frame's time. Empty: everything.
   std::function<std::vector<Window>(const SyntheticFrame&)> windows = {};
 };
 
-/// Scenes of a part: 234 and 59 for kThesis, as Sec. 4.1.1; 0 for kWide: no end.
+/// Scenes of a part: 234 and 59 for kThesis, as Sec. 4.1.1; 0 for the others: no end.
 [[nodiscard]] std::uint64_t scene_count(Split split, Part part);
 
 /// Every name that Meta::scenario can have, in the tables' order.

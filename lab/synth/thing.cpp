@@ -18,18 +18,20 @@ double distance_to(const Capsule& capsule, const Vector3d& p) {
   return (p - capsule.from - t * d).norm();
 }
 
-// True when the capsule, fatter by `margin_m`, holds no part of the rope.
-bool clear_of_rope(const Capsule& capsule, const View& view, double margin_m) {
-  const auto& points = view.curve.points;
-  for (std::size_t i = 0; i < points.size(); i += 2) {
-    if (distance_to(capsule, points[i]) < capsule.radius_m + margin_m) return false;
+// True when the capsule, fatter by `margin_m`, holds no part of a rope.
+bool clear_of_ropes(const Capsule& capsule, const View& view, double margin_m) {
+  for (const Curve& curve : view.curves) {
+    for (std::size_t i = 0; i < curve.points.size(); i += 2) {
+      if (distance_to(capsule, curve.points[i]) < capsule.radius_m + margin_m) return false;
+    }
   }
   return true;
 }
 
 const Vector3d& inner_point(const View& view, double margin, Dice& dice) {
-  const auto count = static_cast<double>(view.curve.points.size() - 1);
-  return view.curve.points[static_cast<std::size_t>(dice.uniform(margin, 1 - margin) * count)];
+  const auto& points = view.curves[dice.any_of(view.curves.size())].points;
+  const auto count = static_cast<double>(points.size() - 1);
+  return points[static_cast<std::size_t>(dice.uniform(margin, 1 - margin) * count)];
 }
 
 // A frame whose first column is `along`.
@@ -56,7 +58,9 @@ std::optional<Vector3d> random_place(const View& view, bool on_ground, Dice& dic
   const double ground = slope < -1e-6 ? view.ground.offset_m / slope : 5.0;
   if (on_ground) return ground < 3.0 ? std::optional<Vector3d>(ground * ray) : std::nullopt;
   double farthest = 0;
-  for (const Vector3d& p : view.curve.points) farthest = std::max(farthest, p.z());
+  for (const Curve& curve : view.curves) {
+    for (const Vector3d& p : curve.points) farthest = std::max(farthest, p.z());
+  }
   const double low = farthest + 0.12;
   const double high = std::min(ground - 0.05, farthest + 1.5);
   if (low >= high) return std::nullopt;
@@ -104,10 +108,10 @@ Thing cable_at(const Vector3d& place, const Vector3d& up, Dice& dice) {
 bool keeps_off(const Thing& thing, const View& view, double radius_m) {
   const double margin = radius_m + 0.004;
   return std::all_of(thing.capsules.begin(), thing.capsules.end(),
-                     [&](const Capsule& c) { return clear_of_rope(c, view, margin); }) &&
+                     [&](const Capsule& c) { return clear_of_ropes(c, view, margin); }) &&
          std::all_of(thing.boxes.begin(), thing.boxes.end(), [&](const Box& box) {
            const Capsule around{box.middle, box.middle + 1e-6 * box.axes.col(0), box.half_m.norm()};
-           return clear_of_rope(around, view, margin);
+           return clear_of_ropes(around, view, margin);
          });
 }
 
@@ -130,7 +134,7 @@ void add_bars(const View& view, double radius_m, Dice& dice, std::vector<Thing>&
     const Vector3d from = middle - (ends_here ? 3 * half_width : reach) * along;
     const Vector3d to = middle + reach * along;
     const Capsule body{from, to, half_width};
-    if (!clear_of_rope(body, view, 2 * radius_m) || std::min(from.z(), to.z()) < 0.06) continue;
+    if (!clear_of_ropes(body, view, 2 * radius_m) || std::min(from.z(), to.z()) < 0.06) continue;
     Thing bar{.kind = ThingKind::kBar, .capsules = {}, .boxes = {}, .color_bgr = dull_color(dice)};
     if (dice.chance(0.5)) {
       bar.capsules.push_back(body);
@@ -184,8 +188,9 @@ void add_hand(const View& view, double radius_m, Dice& dice, std::vector<Thing>&
   things.push_back(std::move(hand));
 }
 
-void add_grippers(const View& view, const Rope& rope, Dice& dice, std::vector<Thing>& things) {
-  const auto& points = view.curve.points;
+void add_grippers(const View& view, const Rope& rope, const Curve& curve, Dice& dice,
+                  std::vector<Thing>& things) {
+  const auto& points = curve.points;
   const double r = rope.radius_m;
   const Vector3d color = dull_color(dice);
   for (int k = 0; k < rope.grippers; ++k) {
@@ -202,19 +207,19 @@ void add_grippers(const View& view, const Rope& rope, Dice& dice, std::vector<Th
     const Vector3d arm = (out + dice.uniform(0.3, 1.2) * up).normalized();
     gripper.capsules.push_back({middle + 0.02 * out, middle + 0.02 * out + 0.6 * arm, 0.018});
     if (gripper.capsules.front().to.z() > 0.08 &&
-        clear_of_rope(gripper.capsules.front(), view, r)) {
+        clear_of_ropes(gripper.capsules.front(), view, r)) {
       things.push_back(std::move(gripper));
     }
   }
 }
 
-void add_clutter(const View& view, const Rope& rope, Dice& dice, std::vector<Thing>& things) {
+void add_clutter(const View& view, double radius_m, bool hanging, Dice& dice,
+                 std::vector<Thing>& things) {
   const int wanted = dice.integer(2, 7);
   for (int k = 0; k < wanted; ++k) {
-    const auto place = random_place(view, !rope.hanging, dice);
+    const auto place = random_place(view, !hanging, dice);
     if (!place) continue;
-    const Vector3d up =
-        rope.hanging ? Vector3d(view.turn * Vector3d(0, -1, 0)) : view.ground.normal;
+    const Vector3d up = hanging ? Vector3d(view.turn * Vector3d(0, -1, 0)) : view.ground.normal;
     const std::size_t what = dice.pick({0.5, 0.25, 0.25});
     Thing thing = what == 0   ? box_at(*place, up, dice)
                   : what == 1 ? rod_at(*place, up, dice)
@@ -222,7 +227,7 @@ void add_clutter(const View& view, const Rope& rope, Dice& dice, std::vector<Thi
     thing.color_bgr = dice.chance(0.6) ? dull_color(dice)
                                        : Vector3d(dice.uniform(20, 230), dice.uniform(20, 230),
                                                   dice.uniform(20, 230));
-    if (keeps_off(thing, view, rope.radius_m)) things.push_back(std::move(thing));
+    if (keeps_off(thing, view, radius_m)) things.push_back(std::move(thing));
   }
 }
 

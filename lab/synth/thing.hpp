@@ -1,4 +1,4 @@
-// Thing: what is in the picture besides the rope: bars, hands, grippers, clutter.
+// Thing: what is in the picture besides the ropes: bars, hands, grippers, clutter.
 #pragma once
 
 #include <Eigen/Core>
@@ -31,16 +31,19 @@ struct Thing {
   Vector3d color_bgr{128, 128, 128};
 };
 
-/// One or two bars in front of the rope, each over an inner part of it.
+/// One or two bars in front of the ropes, each over an inner part of one.
 void add_bars(const View& view, double radius_m, Dice& dice, std::vector<Thing>& things);
 
-/// A hand that reaches in from the border and pinches the rope.
+/// A hand that reaches in from the border and pinches a rope.
 void add_hand(const View& view, double radius_m, Dice& dice, std::vector<Thing>& things);
 
-/// What holds a hanging rope; a gripper may cover up to two centimetres of the end.
-void add_grippers(const View& view, const Rope& rope, Dice& dice, std::vector<Thing>& things);
+/// What holds a hanging rope, which `curve` of the view is; a gripper may cover up to two
+/// centimetres of the end.
+void add_grippers(const View& view, const Rope& rope, const Curve& curve, Dice& dice,
+                  std::vector<Thing>& things);
 
-/// Boxes, rods and other cables on the table, or things behind a hanging rope; none touches it.
-void add_clutter(const View& view, const Rope& rope, Dice& dice, std::vector<Thing>& things);
+/// Boxes, rods and other cables on the table, or things behind hanging ropes; none touches one.
+void add_clutter(const View& view, double radius_m, bool hanging, Dice& dice,
+                 std::vector<Thing>& things);
 
 }  // namespace flowdlo::synth

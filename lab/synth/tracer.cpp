@@ -170,6 +170,13 @@ void aim(const View& view, int u0, int v0, const std::vector<float>& depth_m, Pa
   }
 }
 
+// What a geometry of Embree's is.
+struct Source {
+  std::uint16_t thing = 0;
+  std::uint16_t rope = 0;
+  bool ends = false;  // of a rope: the discs that close it
+};
+
 }  // namespace
 
 struct Tracer::Impl {
@@ -177,12 +184,11 @@ struct Tracer::Impl {
   embree::Device device;
   embree::Scene scene;
   Blocks blocks;
-  std::vector<std::uint16_t> thing_of_geometry;
-  float last_sample = 0;
+  std::vector<Source> sources;
 
   // The cones' normals would show their edges; away from the axis is smooth.
   [[nodiscard]] Vector3f round_normal(const Surface& seen, const Vector3f& ray) const {
-    const auto& points = view->curve.points;
+    const auto& points = view->curves[seen.rope].points;
     const auto i = std::min(points.size() - 2, static_cast<std::size_t>(seen.along));
     const double t = seen.along - static_cast<double>(i);
     const Vector3f axis = ((1 - t) * points[i] + t * points[i + 1]).cast<float>();
@@ -194,28 +200,30 @@ struct Tracer::Impl {
   [[nodiscard]] Surface surface(const RTCRayHit16& rays, int k, std::uint32_t pixel) const {
     Surface surface;
     surface.pixel = pixel;
-    const unsigned geometry = rays.hit.geomID[k];
-    surface.thing = thing_of_geometry[geometry];
+    const Source& source = sources[rays.hit.geomID[k]];
+    surface.thing = source.thing;
+    surface.rope = source.rope;
     surface.z_m = rays.ray.tfar[k];
     surface.normal = Vector3f(rays.hit.Ng_x[k], rays.hit.Ng_y[k], rays.hit.Ng_z[k]).normalized();
     const Vector3f ray(rays.ray.dir_x[k], rays.ray.dir_y[k], 1);
     if (surface.normal.dot(ray) > 0) surface.normal = -surface.normal;
     if (surface.thing != kRopeThing) return surface;
     const auto primitive = static_cast<float>(rays.hit.primID[k]);
-    if (geometry == 0) {
+    if (!source.ends) {
       surface.along = (primitive + rays.hit.u[k]) * static_cast<float>(kStride);
       surface.normal = round_normal(surface, ray);
     } else {
-      surface.along = rays.hit.primID[k] == 0 ? 0 : last_sample;
+      const auto last = static_cast<float>(view->curves[source.rope].points.size() - 1);
+      surface.along = rays.hit.primID[k] == 0 ? 0 : last;
     }
     return surface;
   }
 };
 
-Result<Tracer> Tracer::create(const View& view, const Rope& rope, std::span<const Thing> things) {
+Result<Tracer> Tracer::create(const View& view, std::span<const Rope> ropes,
+                              std::span<const Thing> things) {
   auto impl = std::make_unique<Impl>();
   impl->view = &view;
-  impl->last_sample = static_cast<float>(view.curve.points.size() - 1);
   // Callers run many frames side by side: one thread each.
   impl->device.reset(rtcNewDevice("threads=1,set_affinity=0"));
   if (!impl->device) return failed(nullptr, "a device");
@@ -224,26 +232,29 @@ Result<Tracer> Tracer::create(const View& view, const Rope& rope, std::span<cons
   RTCDevice device = impl->device.get();
   RTCScene scene = impl->scene.get();
   rtcSetSceneBuildQuality(scene, RTC_BUILD_QUALITY_LOW);
-  bool made = add_rope(device, scene, view.curve, rope);
-  impl->thing_of_geometry = {kRopeThing};
-  if (rope.square_ends) {
-    made = made && add_ends(device, scene, view.curve, rope.radius_m);
-    impl->thing_of_geometry.push_back(kRopeThing);
+  bool made = true;
+  for (std::size_t k = 0; made && k < ropes.size(); ++k) {
+    const auto number = static_cast<std::uint16_t>(k);
+    made = made && add_rope(device, scene, view.curves[k], ropes[k]);
+    impl->sources.push_back({kRopeThing, number, false});
+    if (!ropes[k].square_ends) continue;
+    made = made && add_ends(device, scene, view.curves[k], ropes[k].radius_m);
+    impl->sources.push_back({kRopeThing, number, true});
   }
   for (std::size_t i = 0; made && i < things.size(); ++i) {
     if (!things[i].capsules.empty()) {
       made = made && add_capsules(device, scene, things[i].capsules);
-      impl->thing_of_geometry.push_back(static_cast<std::uint16_t>(i));
+      impl->sources.push_back({static_cast<std::uint16_t>(i), 0, false});
     }
     if (!things[i].boxes.empty()) {
       made = made && add_boxes(device, scene, things[i].boxes);
-      impl->thing_of_geometry.push_back(static_cast<std::uint16_t>(i));
+      impl->sources.push_back({static_cast<std::uint16_t>(i), 0, false});
     }
   }
   if (!made) return failed(device, "the scene's geometry");
   rtcCommitScene(scene);
   if (rtcGetDeviceError(device) != RTC_ERROR_NONE) return failed(device, "the scene");
-  impl->blocks = blocks_of(view, rope.radius_m, things);
+  impl->blocks = blocks_of(view, ropes, things);
   return Tracer(std::move(impl));
 }
 

@@ -1,4 +1,4 @@
-// Tracer: primary rays and shadow rays, by Embree. The rope is a round curve.
+// Tracer: primary rays and shadow rays, by Embree. Ropes are round curves.
 #pragma once
 
 #include <cstdint>
@@ -19,6 +19,7 @@ struct Surface {
   std::uint32_t pixel = 0;
   std::uint16_t thing = 0;  ///< index, or kRopeThing
   float z_m = 0;
+  std::uint16_t rope = 0;  ///< of kRopeThing: which one
   float along = 0;         ///< of the rope: samples of its curve
   Eigen::Vector3f normal;  ///< unit, towards the camera
 };
@@ -33,7 +34,7 @@ struct Picture {
 class Tracer {
  public:
   /// `view` must outlive it. Fails with kInternal when Embree has no device or no memory.
-  [[nodiscard]] static Result<Tracer> create(const View& view, const Rope& rope,
+  [[nodiscard]] static Result<Tracer> create(const View& view, std::span<const Rope> ropes,
                                              std::span<const Thing> things);
 
   [[nodiscard]] Picture take_picture() const;

@@ -29,8 +29,7 @@ double deviation(const StillLife& scene, const std::vector<float>& depth_m) {
 double noise_at(double distance_m, DepthPrinciple principle) {
   StillLife scene;
   arrange(scene, distance_m, principle);
-  const auto depth_m =
-      measured_depth(scene.view, scene.picture, scene.rope.radius_m, {.noise = true}, 1);
+  const auto depth_m = measured_depth(scene.view, scene.picture, scene.ropes(), {.noise = true}, 1);
   return deviation(scene, depth_m);
 }
 
@@ -47,7 +46,7 @@ TEST(DepthSensor, TheIdealPictureIsTableAndRope) {
 TEST(DepthSensor, WithoutFaultsOnlyRoundsToItsUnit) {
   StillLife scene;
   arrange(scene, 0.7, DepthPrinciple::kStereo);
-  const auto depth_m = measured_depth(scene.view, scene.picture, scene.rope.radius_m, {}, 1);
+  const auto depth_m = measured_depth(scene.view, scene.picture, scene.ropes(), {}, 1);
   for (std::size_t i = 0; i < depth_m.size(); ++i) {
     ASSERT_NEAR(depth_m[i], scene.picture.depth_m[i], 0.51 * kDepthScale_m);
   }
@@ -67,8 +66,7 @@ TEST(DepthSensor, StereoNoiseIsThatOfTheDisparity) {  // dz = z^2 / (f b) dd
 TEST(DepthSensor, StereoDepthComesInStepsOfDisparity) {
   StillLife scene;
   arrange(scene, 1.2, DepthPrinciple::kStereo);
-  const auto depth_m =
-      measured_depth(scene.view, scene.picture, scene.rope.radius_m, {.noise = true}, 1);
+  const auto depth_m = measured_depth(scene.view, scene.picture, scene.ropes(), {.noise = true}, 1);
   std::set<float> values(depth_m.begin(), depth_m.begin() + 60 * 320);
   EXPECT_LT(values.size(), 60U);  // a step of 1/32 px is 3 mm here
 }
@@ -80,7 +78,7 @@ TEST(DepthSensor, TimeOfFlightNoiseIsAboutItsFigureAtAMetre) {
 TEST(DepthSensor, WholeMillimetresAreWhole) {
   StillLife scene;
   arrange(scene, 0.5, DepthPrinciple::kTimeOfFlight);
-  const auto depth_m = measured_depth(scene.view, scene.picture, scene.rope.radius_m,
+  const auto depth_m = measured_depth(scene.view, scene.picture, scene.ropes(),
                                       {.noise = true, .whole_mm = true}, 1);
   for (const float z : depth_m) ASSERT_NEAR(std::round(z * 1000) / 1000, z, 1e-6);
 }
@@ -89,8 +87,8 @@ TEST(DepthSensor, ALostStretchHasNoDepthAndTheRestHas) {
   StillLife scene;
   arrange(scene, 0.5, DepthPrinciple::kStereo);
   DepthFaults faults;
-  faults.lost.push_back({10, 20});
-  const auto depth_m = measured_depth(scene.view, scene.picture, scene.rope.radius_m, faults, 1);
+  faults.lost.push_back({0, 10, 20});
+  const auto depth_m = measured_depth(scene.view, scene.picture, scene.ropes(), faults, 1);
   for (const Surface& seen : scene.picture.surfaces) {
     EXPECT_EQ(depth_m[seen.pixel] > 0, seen.along < 10 || seen.along > 20);
   }
@@ -99,8 +97,7 @@ TEST(DepthSensor, ALostStretchHasNoDepthAndTheRestHas) {
 TEST(DepthSensor, FlyingPixelsLieBetweenRopeAndTable) {
   StillLife scene;
   arrange(scene, 0.5, DepthPrinciple::kTimeOfFlight);
-  const auto depth_m =
-      measured_depth(scene.view, scene.picture, scene.rope.radius_m, {.flying = 1.0}, 1);
+  const auto depth_m = measured_depth(scene.view, scene.picture, scene.ropes(), {.flying = 1.0}, 1);
   int flying = 0;
   for (std::size_t i = 0; i < depth_m.size(); ++i) {
     EXPECT_GE(depth_m[i], 0.5 - scene.rope.radius_m - 1e-3);
@@ -114,7 +111,7 @@ TEST(DepthSensor, DropoutTakesTheBorderOnly) {
   StillLife scene;
   arrange(scene, 0.5, DepthPrinciple::kTimeOfFlight);
   const auto depth_m =
-      measured_depth(scene.view, scene.picture, scene.rope.radius_m, {.dropout = 1.0}, 1);
+      measured_depth(scene.view, scene.picture, scene.ropes(), {.dropout = 1.0}, 1);
   EXPECT_GT(depth_m[119 * 320 + 160], 0);
   int lost = 0;
   for (int v = 100; v < 140; ++v)

@@ -39,8 +39,8 @@ TEST_F(MaskSegmenter, ErosionTakesAPixelOnBothSides) {
 }
 
 TEST_F(MaskSegmenter, AGapCutsTheRopeThrough) {
-  const auto count = static_cast<double>(scene_.view.curve.points.size() - 1);
-  const auto mask = mask_with({.gaps = {{0.48 * count, 0.52 * count}}});
+  const auto count = static_cast<double>(scene_.view.curves.front().points.size() - 1);
+  const auto mask = mask_with({.gaps = {{0, 0.48 * count, 0.52 * count}}});
   EXPECT_EQ(width_at(mask, 160), 0);
   EXPECT_EQ(width_at(mask, 120), 12);
 }

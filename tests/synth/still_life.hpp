@@ -12,6 +12,8 @@ struct StillLife {
   Rope rope;
   View view;
   Picture picture;
+
+  [[nodiscard]] std::span<const Rope> ropes() const { return {&rope, 1}; }
 };
 
 /// 320 x 240 px, focal length 300 px; the rope lies across the image, 12 px wide, on a table
@@ -25,8 +27,8 @@ inline void arrange(StillLife& scene, double distance_m, DepthPrinciple principl
   scene.view.ground = {{0, 0, -1}, -(distance_m + scene.rope.radius_m)};
   const double half = 100 * distance_m / 300;
   const std::vector<Vector3d> ends = {{-half, 0, distance_m}, {half, 0, distance_m}};
-  scene.view.curve = respaced(ends, 0.5 * scene.rope.radius_m);
-  const auto tracer = Tracer::create(scene.view, scene.rope, {});
+  scene.view.curves = {respaced(ends, 0.5 * scene.rope.radius_m)};
+  const auto tracer = Tracer::create(scene.view, scene.ropes(), {});
   ASSERT_TRUE(tracer) << tracer.error().message;
   scene.picture = tracer->take_picture();
 }

@@ -21,10 +21,10 @@ TEST(View, TheRopeRestsOnTheTableOfItsCamera) {
   const auto rope = some_rope(dice);
   ASSERT_TRUE(rope);
   std::optional<View> view;
-  for (int k = 0; k < 100 && !view; ++k) view = try_thesis_view(*rope, dice);
+  for (int k = 0; k < 100 && !view; ++k) view = try_thesis_view({&*rope, 1}, dice);
   ASSERT_TRUE(view);
 
-  for (const Vector3d& p : view->curve.points) {
+  for (const Vector3d& p : view->curves.front().points) {
     const double height = view->ground.normal.dot(p) - view->ground.offset_m;
     ASSERT_NEAR(height, rope->radius_m, 1e-9);
     const Vector2d at = view->project(p);
@@ -45,7 +45,7 @@ TEST(Tracer, SquareEndsStopAtTheCurveAndRoundOnesARadiusBeyond) {
   };
   EXPECT_NEAR(row(scene.picture), 212, 1);  // 200 px of axis, 6 px at both ends
   scene.rope.square_ends = true;
-  const auto tracer = Tracer::create(scene.view, scene.rope, {});
+  const auto tracer = Tracer::create(scene.view, scene.ropes(), {});
   ASSERT_TRUE(tracer);
   EXPECT_NEAR(row(tracer->take_picture()), 204, 1);  // their upper edge is nearer than the axis
 }
@@ -57,7 +57,7 @@ TEST(Tracer, AThingInFrontTakesTheRopesMask) {
   bar.kind = ThingKind::kBar;
   bar.capsules.push_back({{0, -0.3, 0.4}, {0, 0.3, 0.4}, 0.01});
   const std::vector<Thing> things = {bar};
-  const auto tracer = Tracer::create(scene.view, scene.rope, things);
+  const auto tracer = Tracer::create(scene.view, scene.ropes(), things);
   ASSERT_TRUE(tracer);
   const Picture picture = tracer->take_picture();
 
@@ -72,7 +72,7 @@ TEST(Tracer, AlongRunsFromOneEndToTheOther) {
   for (const Surface& seen : scene.picture.surfaces) {
     const auto u = static_cast<double>(seen.pixel % 320);
     const double expected =
-        (u - 159.5 + 100) / 200 * static_cast<double>(scene.view.curve.points.size() - 1);
+        (u - 159.5 + 100) / 200 * static_cast<double>(scene.view.curves.front().points.size() - 1);
     ASSERT_NEAR(seen.along, std::clamp(expected, 0.0, 1e9), 2.5) << u;
   }
 }
