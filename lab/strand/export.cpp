@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 namespace flowdlo::strand {
 namespace {
 
@@ -62,15 +64,68 @@ class Exporter {
   std::vector<weights::Tensor>& tensors_;
 };
 
+/// Undoes laid_out(): what lies beyond the network's own channels is left away.
+class Importer {
+ public:
+  explicit Importer(const weights::FieldWeights& weights) : weights_(weights) {}
+
+  void fill(const std::string& name, Block block) const {
+    for (std::size_t i = 0; i < block->layers->size(); i += 2) {
+      auto& norm =
+          *std::dynamic_pointer_cast<torch::nn::BatchNorm2dImpl>(block->layers->ptr(i + 1));
+      const std::string layer = fmt::format("{}.{}", name, i / 2);
+      take(layer, std::dynamic_pointer_cast<torch::nn::Conv2dImpl>(block->layers->ptr(i))->weight,
+           norm.bias);
+      norm.running_mean.zero_();
+      norm.running_var.fill_(1);
+      norm.weight.fill_(std::sqrt(1 + norm.options.eps()));
+    }
+  }
+  void fill(const std::string& name, torch::nn::Conv2d& convolution) const {
+    take(name, convolution->weight, convolution->bias);
+  }
+
+ private:
+  void take(const std::string& name, Tensor& weight, Tensor& bias) const {
+    const auto& taps = weights_.at(name + ".weight");
+    const Tensor stored = torch::tensor(taps.values).view({taps.shape[0], taps.shape[1], -1});
+    weight.copy_(stored.slice(0, 0, weight.size(0))
+                     .slice(2, 0, weight.size(1))
+                     .permute({0, 2, 1})
+                     .reshape(weight.sizes()));
+    bias.copy_(torch::tensor(weights_.at(name + ".bias").values).slice(0, 0, bias.size(0)));
+  }
+
+  const weights::FieldWeights& weights_;
+};
+
 }  // namespace
+
+Network imported(const weights::FieldWeights& weights) {
+  const torch::NoGradGuard no_gradients;
+  Network network(NetworkConfig{weights.sizes.fine, weights.sizes.middle, weights.sizes.coarse});
+  const Importer importer(weights);
+  importer.fill("down_fine", network->down_fine);
+  importer.fill("down_middle", network->down_middle);
+  importer.fill("coarse", network->coarse);
+  importer.fill("to_middle", network->to_middle);
+  importer.fill("up_middle", network->up_middle);
+  importer.fill("to_fine", network->to_fine);
+  importer.fill("up_fine", network->up_fine);
+  importer.fill("head", network->head);
+  network->eval();
+  return network;
+}
 
 weights::FieldWeights exported(const State& state, const std::string& notes) {
   const torch::NoGradGuard no_gradients;
   const NetworkConfig& config = state.recipe.network;
   weights::FieldWeights weights;
   weights.name = state.recipe.name;
-  weights.training_data = fmt::format("flowdlo synth, wide training split, seed {}, {} scenes",
-                                      state.recipe.data.seed, state.recipe.data.scenes);
+  weights.training_data = fmt::format(
+      "flowdlo synth, training part, seed {}, {} scenes, of which "
+      "{:.0f} % several and the rest wide",
+      state.recipe.data.seed, state.recipe.data.scenes, 100 * state.recipe.data.several);
   weights.notes = notes;
   weights.sizes = {config.fine, config.middle, config.coarse};
   Exporter exporter(weights.tensors);

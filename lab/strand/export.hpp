@@ -1,4 +1,4 @@
-// Export: a trained strand field as the engine reads it.
+// Export: a trained strand field as the engine reads it, and back.
 #pragma once
 
 #include <string>
@@ -10,5 +10,9 @@ namespace flowdlo::strand {
 
 /// The averaged network, each batch norm folded into the convolution before it.
 [[nodiscard]] weights::FieldWeights exported(const State& state, const std::string& notes);
+
+/// The way back: a network whose batch norms do nothing but add the folded biases. It says what the
+/// engine says of the same weights; for training see start_from().
+[[nodiscard]] Network imported(const weights::FieldWeights& weights);
 
 }  // namespace flowdlo::strand

@@ -117,7 +117,7 @@ double thread_ms() {
 double true_width_px(const synth::SyntheticFrame& scene) {
   double depth = 0;
   for (const auto& node : scene.truth()) depth += static_cast<double>(node.z) / flowdlo::kNodes;
-  return 2 * scene.dense->radius_m * static_cast<double>(scene.folder.intrinsics.fx) / depth;
+  return 2 * scene.ropes.front().radius_m * static_cast<double>(scene.folder.intrinsics.fx) / depth;
 }
 
 /// The region in colour, the mask, and the field's centre and direction, tips and edges, side by

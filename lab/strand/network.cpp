@@ -30,10 +30,12 @@ BlockImpl::BlockImpl(int in, int out, int count) {
   register_module("layers", layers);
 }
 
-Tensor BlockImpl::forward(Tensor x) {
+Tensor BlockImpl::forward(Tensor x, const Watch& watch) {
   for (std::size_t i = 0; i < layers->size(); i += 2) {
     x = layers[i]->as<nn::Conv2d>()->forward(x);
-    x = torch::relu(layers[i + 1]->as<nn::BatchNorm2d>()->forward(x));
+    auto* const norm = layers[i + 1]->as<nn::BatchNorm2d>();
+    if (watch) watch(*norm, x);
+    x = torch::relu(norm->forward(x));
   }
   return x;
 }
@@ -60,12 +62,12 @@ NetworkImpl::NetworkImpl(const NetworkConfig& wanted) : config(wanted) {
   start(field::kEdge, -4);
 }
 
-Tensor NetworkImpl::forward(const Tensor& planes) {
-  const Tensor fine = down_fine->forward(torch::pixel_unshuffle(planes, 2));
-  const Tensor middle = down_middle->forward(torch::max_pool2d(fine, 2));
-  const Tensor bottom = coarse->forward(torch::max_pool2d(middle, 2));
-  const Tensor half = up_middle->forward(middle + twice(to_middle->forward(bottom)));
-  const Tensor whole = up_fine->forward(fine + twice(to_fine->forward(half)));
+Tensor NetworkImpl::forward(const Tensor& planes, const Watch& watch) {
+  const Tensor fine = down_fine->forward(torch::pixel_unshuffle(planes, 2), watch);
+  const Tensor middle = down_middle->forward(torch::max_pool2d(fine, 2), watch);
+  const Tensor bottom = coarse->forward(torch::max_pool2d(middle, 2), watch);
+  const Tensor half = up_middle->forward(middle + twice(to_middle->forward(bottom)), watch);
+  const Tensor whole = up_fine->forward(fine + twice(to_fine->forward(half)), watch);
   return torch::pixel_shuffle(head->forward(whole), 2);
 }
 

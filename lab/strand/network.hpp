@@ -4,15 +4,20 @@
 
 #include <torch/torch.h>
 
+#include <functional>
+
 #include "strand/recipe.hpp"
 
 namespace flowdlo::strand {
+
+/// Sees each batch norm and what it is given, before it is used.
+using Watch = std::function<void(torch::nn::BatchNorm2dImpl& norm, const torch::Tensor& given)>;
 
 /// Two or three convolutions of 3 x 3, each with batch norm and ReLU.
 class BlockImpl : public torch::nn::Module {
  public:
   BlockImpl(int in, int out, int layers);
-  torch::Tensor forward(torch::Tensor x);
+  torch::Tensor forward(torch::Tensor x, const Watch& watch = {});
 
   torch::nn::ModuleList layers;
 };
@@ -24,7 +29,7 @@ class NetworkImpl : public torch::nn::Module {
 
   /// [n, kPlanes, h, w] to [n, kChannels, h, w]; h and w multiples of 8. Centre, tip, under, rope
   /// and edge are logits, directions have any length.
-  torch::Tensor forward(const torch::Tensor& planes);
+  torch::Tensor forward(const torch::Tensor& planes, const Watch& watch = {});
 
   NetworkConfig config;
   Block down_fine{nullptr};

@@ -19,23 +19,25 @@ Vector2d project(const Intrinsics& camera, const Vector3d& p) {
   return {camera.fx * p.x() / p.z() + camera.cx, camera.fy * p.y() / p.z() + camera.cy};
 }
 
-Seen seen(const synth::SyntheticFrame& frame, const AxisPoint& point) {
+Seen seen(const synth::SyntheticFrame& frame, const AxisPoint& point, double radius_m) {
   const auto u = static_cast<int>(std::lround(point.u));
   const auto v = static_cast<int>(std::lround(point.v));
   if (u < 0 || v < 0 || u >= frame.folder.width || v >= frame.folder.height) return Seen::kNo;
   const auto pixel = static_cast<std::size_t>(v) * static_cast<std::size_t>(frame.folder.width) +
                      static_cast<std::size_t>(u);
   if (frame.dense->mask[pixel] == 0) return Seen::kNo;
-  const double own = static_cast<double>(point.depth_m) - kOwnSurface * frame.dense->radius_m;
+  const double own = static_cast<double>(point.depth_m) - kOwnSurface * radius_m;
   return static_cast<double>(frame.dense->depth_m[pixel]) < own ? Seen::kUnder : Seen::kYes;
 }
 
 /// Samples so dense that they lie half a pixel apart.
-Strand strand_of(const synth::Curve& curve, const synth::SyntheticFrame& frame) {
+Strand strand_of(const synth::SyntheticFrame& frame, std::size_t rope) {
   const Intrinsics& camera = frame.folder.intrinsics;
-  const double radius_m = frame.dense->radius_m;
+  const synth::Curve& curve = frame.dense->curves[rope];
+  const double radius_m = frame.ropes[rope].radius_m;
   Strand strand;
-  strand.begins = strand.ends = true;
+  strand.rope = static_cast<int>(rope);
+  strand.begins = strand.ends = !frame.ropes[rope].closed;
   const auto add = [&](const Vector3d& p, double along) {
     const Vector2d at = project(camera, p);
     AxisPoint point{static_cast<float>(at.x()),
@@ -44,7 +46,7 @@ Strand strand_of(const synth::Curve& curve, const synth::SyntheticFrame& frame) 
                     static_cast<float>(p.z()),
                     static_cast<float>(along / (2 * radius_m)),
                     Seen::kYes};
-    point.seen = seen(frame, point);
+    point.seen = seen(frame, point, radius_m);
     strand.points.push_back(point);
   };
   for (std::size_t i = 0; i + 1 < curve.points.size(); ++i) {
@@ -63,22 +65,28 @@ Strand strand_of(const synth::Curve& curve, const synth::SyntheticFrame& frame) 
 
 using Middles = std::vector<const AxisPoint*>;
 
-/// Visible points of which a strand farther along is near.
+/// Visible points of which a strand of another rope, or one farther along, is near.
 Middles near_others(const std::vector<Strand>& strands) {
   constexpr std::size_t kStride = 6;
-  Middles sparse;
+  struct Place {
+    const AxisPoint* point;
+    int rope;
+  };
+  std::vector<Place> sparse;
   for (const Strand& strand : strands) {
     for (std::size_t i = 0; i < strand.points.size(); i += kStride) {
-      sparse.push_back(&strand.points[i]);
+      sparse.push_back({&strand.points[i], strand.rope});
     }
   }
   Middles near;
-  for (const AxisPoint* a : sparse) {
-    const bool has_other = std::any_of(sparse.begin(), sparse.end(), [&](const AxisPoint* b) {
+  for (const auto& [a, rope] : sparse) {
+    const bool has_other = std::any_of(sparse.begin(), sparse.end(), [&](const Place& other) {
+      const AxisPoint* b = other.point;
       const double off =
           std::hypot(static_cast<double>(a->u - b->u), static_cast<double>(a->v - b->v));
       return off < kNearWidths * 2 * static_cast<double>(a->radius_px) &&
-             std::abs(static_cast<double>(a->along_widths - b->along_widths)) > kApartWidths;
+             (rope != other.rope ||
+              std::abs(static_cast<double>(a->along_widths - b->along_widths)) > kApartWidths);
     });
     if (has_other && a->seen == Seen::kYes) near.push_back(a);
   }
@@ -248,20 +256,19 @@ Patch Cutter::cut(const synth::SyntheticFrame& frame, const synth::Window& windo
 
 std::vector<Strand> strands_of(const synth::SyntheticFrame& frame) {
   std::vector<Strand> strands;
-  for (const synth::Curve& curve : frame.dense->curves) {
-    strands.push_back(strand_of(curve, frame));
-    strands.back().rope = static_cast<int>(strands.size()) - 1;
+  for (std::size_t k = 0; k < frame.dense->curves.size(); ++k) {
+    strands.push_back(strand_of(frame, k));
   }
   return strands;
 }
 
-Result<std::vector<Patch>> patches_of(synth::Part part, std::uint64_t seed, std::uint64_t index,
-                                      const PatchConfig& config) {
+Result<std::vector<Patch>> patches_of(synth::Split split, synth::Part part, std::uint64_t seed,
+                                      std::uint64_t index, const PatchConfig& config) {
   Cutter cutter(config, seed, index);
   synth::Render render;
   render.dense = true;
   render.windows = [&](const synth::SyntheticFrame& frame) { return cutter.choose(frame); };
-  const auto frame = synth::make_frame(synth::Split::kWide, part, seed, index, render);
+  const auto frame = synth::make_frame(split, part, seed, index, render);
   if (!frame) return frame.error();
   return cutter.cut(*frame);
 }

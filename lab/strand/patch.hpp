@@ -57,8 +57,8 @@ struct PatchConfig {
 };
 
 /// A frame of `index`, and patches of it. Deterministic. Fails as synth::make_frame does.
-[[nodiscard]] Result<std::vector<Patch>> patches_of(synth::Part part, std::uint64_t seed,
-                                                    std::uint64_t index,
+[[nodiscard]] Result<std::vector<Patch>> patches_of(synth::Split split, synth::Part part,
+                                                    std::uint64_t seed, std::uint64_t index,
                                                     const PatchConfig& config = {});
 
 /// The strands of a whole frame in its own pixels, for measures on frames.

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <atomic>
+#include <cmath>
 #include <cstring>
 #include <fstream>
 #include <mutex>
@@ -121,11 +122,20 @@ std::filesystem::path shard_file(const std::filesystem::path& folder, std::uint6
   return folder / fmt::format("patches_{:05}.bin", shard);
 }
 
-Result<void> make_shard(const std::filesystem::path& file, std::uint64_t shard, std::uint64_t seed,
-                        const PatchConfig& config, const std::function<void()>& progress) {
+synth::Split split_of(std::uint64_t scene, double several) {
+  const auto so_far = [&](std::uint64_t scenes) {
+    return std::floor(several * static_cast<double>(scenes));
+  };
+  return so_far(scene + 1) > so_far(scene) ? synth::Split::kSeveral : synth::Split::kWide;
+}
+
+Result<void> make_shard(const std::filesystem::path& file, std::uint64_t shard,
+                        const DataConfig& config, const std::function<void()>& progress) {
   std::vector<std::vector<std::uint8_t>> packed;
   for (std::uint64_t i = 0; i < kShardScenes; ++i) {
-    const auto patches = patches_of(synth::Part::kTraining, seed, shard * kShardScenes + i, config);
+    const std::uint64_t scene = shard * kShardScenes + i;
+    const auto patches = patches_of(split_of(scene, config.several), synth::Part::kTraining,
+                                    config.seed, scene, config.patch);
     if (!patches) return patches.error();
     for (const Patch& patch : *patches) {
       Writer writer;
@@ -153,16 +163,15 @@ Error damaged(const std::filesystem::path& file) {
 
 }  // namespace
 
-Result<void> make_patches(const std::filesystem::path& folder, std::uint64_t seed,
-                          std::uint64_t scenes, const PatchConfig& config, int threads,
-                          const std::function<void()>& progress) {
+Result<void> make_patches(const std::filesystem::path& folder, const DataConfig& config,
+                          int threads, const std::function<void()>& progress) {
   std::error_code failed;
   std::filesystem::create_directories(folder, failed);
   if (failed) {
     return Error{ErrorCode::kIo, fmt::format("{}: expected a folder that can be made, got \"{}\"",
                                              folder.string(), failed.message())};
   }
-  const std::uint64_t shards = (scenes + kShardScenes - 1) / kShardScenes;
+  const std::uint64_t shards = (config.scenes + kShardScenes - 1) / kShardScenes;
   std::atomic<std::uint64_t> next = 0;
   std::mutex mutex;
   Result<void> outcome;
@@ -174,7 +183,7 @@ Result<void> make_patches(const std::filesystem::path& folder, std::uint64_t see
         for (std::uint64_t i = 0; i < kShardScenes; ++i) progress();
         continue;
       }
-      const auto made = make_shard(file, shard, seed, config, [&] {
+      const auto made = make_shard(file, shard, config, [&] {
         const std::lock_guard lock(mutex);
         progress();
       });

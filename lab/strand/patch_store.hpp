@@ -13,12 +13,19 @@ namespace flowdlo::strand {
 
 inline constexpr std::uint64_t kShardScenes = 50;
 
-/// Makes the shards of scenes [0, scenes) of the training part that are not in `folder` yet,
-/// `threads` at work. Scenes are rounded up to whole shards. `progress` is called after each scene,
-/// from one thread at a time. Fails with kIo, or as patches_of does.
-[[nodiscard]] Result<void> make_patches(const std::filesystem::path& folder, std::uint64_t seed,
-                                        std::uint64_t scenes, const PatchConfig& config,
-                                        int threads, const std::function<void()>& progress);
+/// What patches are made of: scenes [0, scenes) of the training part.
+struct DataConfig {
+  std::uint64_t seed = 0;
+  std::uint64_t scenes = 8000;  ///< rounded up to whole shards
+  double several = 0;           ///< share of them, evenly spread, that show two to nine ropes
+  PatchConfig patch;
+};
+
+/// Makes the shards that are not in `folder` yet, `threads` at work. `progress` is called after
+/// each scene, from one thread at a time. Fails with kIo, or as patches_of does.
+[[nodiscard]] Result<void> make_patches(const std::filesystem::path& folder,
+                                        const DataConfig& config, int threads,
+                                        const std::function<void()>& progress);
 
 /// The patches of a folder, read one by one when they are asked for.
 class PatchStore {

@@ -19,6 +19,7 @@ void visit(Visitor& visitor, Recipe& recipe) {
   visitor.group("data", [&](Visitor& v) {
     v.whole("seed", recipe.data.seed, 0, kMany);
     v.whole("scenes", recipe.data.scenes, 1, kMany);
+    v.real("several", recipe.data.several, 0, 1);
     v.group("patch", [&](Visitor& inside) {
       PatchConfig& patch = recipe.data.patch;
       inside.whole("each", patch.each, 1, 100);

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "flowdlo/result.hpp"
-#include "strand/patch.hpp"
+#include "strand/patch_store.hpp"
 #include "strand/sample.hpp"
 
 namespace flowdlo::strand {
@@ -15,12 +15,6 @@ struct NetworkConfig {
   int fine = 32;    ///< channels at half the region's size,
   int middle = 48;  ///< at a quarter,
   int coarse = 96;  ///< and at an eighth
-};
-
-struct DataConfig {
-  std::uint64_t seed = 0;
-  std::uint64_t scenes = 8000;
-  PatchConfig patch;
 };
 
 struct LossConfig {  ///< weights of the parts

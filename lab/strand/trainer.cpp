@@ -10,6 +10,7 @@
 
 #include "field/channel.hpp"
 #include "field/sight.hpp"
+#include "strand/export.hpp"
 #include "strand/sample.hpp"
 #include "threads/pool.hpp"
 #include "train/archive_file.hpp"
@@ -236,8 +237,11 @@ State start(const Recipe& recipe, torch::Device device) {
   return state;
 }
 
-Result<State> start_from(const State& earlier, const Recipe& recipe, torch::Device device) {
-  const NetworkConfig& had = earlier.recipe.network;
+namespace {
+
+/// A new run whose networks are both `taught`.
+Result<State> start_as(Network taught, const Recipe& recipe, torch::Device device) {
+  const NetworkConfig& had = taught->config;
   const NetworkConfig& wanted = recipe.network;
   if (had.fine != wanted.fine || had.middle != wanted.middle || had.coarse != wanted.coarse) {
     return Error{
@@ -248,11 +252,47 @@ Result<State> start_from(const State& earlier, const Recipe& recipe, torch::Devi
                     wanted.coarse)};
   }
   State state = start(recipe, device);
-  Network taught = earlier.average;  // a handle
   for (Network network : {state.network, state.average}) {
     for_each_pair(network, taught, [](Tensor& to, const Tensor& from) { to.copy_(from); });
   }
   return state;
+}
+
+/// Gives every batch norm the statistics of these planes, and scale and shift under which it still
+/// does what it did.
+void settle_norms(Network network, const Tensor& planes) {
+  const torch::NoGradGuard no_gradients;
+  network->eval();
+  network->forward(planes, [](torch::nn::BatchNorm2dImpl& norm, const Tensor& given) {
+    const double eps = norm.options.eps();
+    const Tensor gain = norm.weight / torch::sqrt(norm.running_var + eps);
+    const Tensor shift = norm.bias - norm.running_mean * gain;
+    norm.running_mean.copy_(given.mean({0, 2, 3}));
+    norm.running_var.copy_(given.var({0, 2, 3}, /*unbiased=*/false));
+    norm.weight.copy_(gain * torch::sqrt(norm.running_var + eps));
+    norm.bias.copy_(shift + norm.running_mean * gain);
+  });
+}
+
+}  // namespace
+
+Result<State> start_from(const State& earlier, const Recipe& recipe, torch::Device device) {
+  return start_as(earlier.average, recipe, device);
+}
+
+Result<State> start_from(const weights::FieldWeights& earlier, const PatchStore& patches,
+                         const Recipe& recipe, torch::Device device) {
+  constexpr int kBatches = 8;  // whose statistics the norms begin with
+  Network taught = imported(earlier);
+  threads::Pool pool(1);
+  std::vector<Tensor> planes;
+  for (int i = 0; i < kBatches; ++i) {
+    auto batch = BatchMaker(pool, patches, recipe, i).finish();
+    if (!batch) return batch.error();
+    planes.push_back(std::move(batch->planes));
+  }
+  settle_norms(taught, torch::cat(planes));
+  return start_as(taught, recipe, device);
 }
 
 Result<void> save_checkpoint(const State& state, const std::filesystem::path& file) {

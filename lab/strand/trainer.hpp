@@ -13,6 +13,7 @@
 #include "strand/network.hpp"
 #include "strand/patch_store.hpp"
 #include "strand/recipe.hpp"
+#include "weights/field_weights.hpp"
 
 namespace flowdlo::strand {
 
@@ -48,6 +49,12 @@ struct State {
 /// A new run that begins with what `earlier` has learned on average. Fails with kBadInput where its
 /// network has other sizes.
 [[nodiscard]] Result<State> start_from(const State& earlier, const Recipe& recipe,
+                                       torch::Device device);
+
+/// The same from exported weights. Folding has taken the batch norms' statistics away: they are
+/// measured anew on samples of `patches`. Fails likewise, and as PatchStore::read does.
+[[nodiscard]] Result<State> start_from(const weights::FieldWeights& earlier,
+                                       const PatchStore& patches, const Recipe& recipe,
                                        torch::Device device);
 
 /// Under a temporary name, then renamed. Fails with kIo.

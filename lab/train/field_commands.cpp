@@ -64,11 +64,11 @@ int failed(const Error& error, int code = 1) {
 int make_patches(const PatchArguments& arguments) {
   const auto recipe = strand::read_recipe(arguments.recipe);
   if (!recipe) return failed(recipe.error(), 2);
-  const std::uint64_t scenes = arguments.scenes > 0 ? arguments.scenes : recipe->data.scenes;
-  tools::ProgressBar bar("scenes", static_cast<int>(scenes), arguments.quiet);
-  const auto made =
-      strand::make_patches(arguments.folder, recipe->data.seed, scenes, recipe->data.patch,
-                           threads::count(arguments.threads), [&] { bar.advance(); });
+  strand::DataConfig data = recipe->data;
+  if (arguments.scenes > 0) data.scenes = arguments.scenes;
+  tools::ProgressBar bar("scenes", static_cast<int>(data.scenes), arguments.quiet);
+  const auto made = strand::make_patches(arguments.folder, data, threads::count(arguments.threads),
+                                         [&] { bar.advance(); });
   bar.clear();
   if (!made) return failed(made.error());
   const auto store = strand::PatchStore::open(arguments.folder);
@@ -140,6 +140,13 @@ Result<strand::State> begun(const FieldArguments& arguments, const strand::Recip
   const auto checkpoint = arguments.folder / "checkpoint.pt";
   if (std::filesystem::exists(checkpoint)) return strand::load_checkpoint(checkpoint, device);
   if (arguments.from.empty()) return strand::start(recipe, device);
+  if (!std::filesystem::is_directory(arguments.from)) {
+    const auto earlier = weights::load_field(arguments.from);
+    if (!earlier) return earlier.error();
+    const auto patches = strand::PatchStore::open(arguments.patches);
+    if (!patches) return patches.error();
+    return strand::start_from(*earlier, *patches, recipe, device);
+  }
   const auto earlier = strand::load_checkpoint(arguments.from / "checkpoint.pt", device);
   if (!earlier) return earlier.error();
   return strand::start_from(*earlier, recipe, device);
@@ -218,8 +225,10 @@ void add_field_commands(CLI::App& app, int argc, char** argv, int& exit_code) {
       "field", "Train a strand field; goes on, exactly, from a checkpoint that is in --out");
   field->add_option("recipe", arguments->recipe, "Recipe of a strand field, JSON")->required();
   field->add_option("--out", arguments->folder, "Folder of checkpoint and log")->required();
-  field->add_option("--from", arguments->from,
-                    "Folder of an earlier run whose network a new one begins with");
+  field->add_option(
+      "--from", arguments->from,
+      "Folder of an earlier run, or exported .safetensors, whose network a new run begins "
+      "with");
   field->add_option("--patches", arguments->patches, "Folder that field-patches filled")
       ->required();
   field->add_option("--device", arguments->device, "auto, cpu or cuda")

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <fstream>
 
 #include "frame/temporary_folder.hpp"
@@ -13,9 +14,9 @@ namespace {
 constexpr std::uint64_t kSeed = 3;
 
 TEST(Patch, IsTheSameEveryTimeAndAnotherForAnotherScene) {
-  const auto first = patches_of(synth::Part::kTraining, kSeed, 5);
-  const auto again = patches_of(synth::Part::kTraining, kSeed, 5);
-  const auto other = patches_of(synth::Part::kTraining, kSeed, 6);
+  const auto first = patches_of(synth::Split::kWide, synth::Part::kTraining, kSeed, 5);
+  const auto again = patches_of(synth::Split::kWide, synth::Part::kTraining, kSeed, 5);
+  const auto other = patches_of(synth::Split::kWide, synth::Part::kTraining, kSeed, 6);
   ASSERT_TRUE(first && again && other);
   ASSERT_FALSE(first->empty());
   ASSERT_EQ(first->size(), again->size());
@@ -25,7 +26,7 @@ TEST(Patch, IsTheSameEveryTimeAndAnotherForAnotherScene) {
 }
 
 TEST(Patch, ItsStrandsLieOnTheRopeThatItShows) {
-  const auto patches = patches_of(synth::Part::kTraining, kSeed, 11);
+  const auto patches = patches_of(synth::Split::kWide, synth::Part::kTraining, kSeed, 11);
   ASSERT_TRUE(patches);
   int visible = 0;
   int on_mask = 0;
@@ -50,7 +51,8 @@ TEST(Patch, AWideRopeIsShrunk) {
   PatchConfig config;
   config.most_rope_px = 4;
   for (std::uint64_t index = 0; index < 4; ++index) {
-    const auto patches = patches_of(synth::Part::kTraining, kSeed, index, config);
+    const auto patches =
+        patches_of(synth::Split::kWide, synth::Part::kTraining, kSeed, index, config);
     ASSERT_TRUE(patches);
     for (const Patch& patch : *patches) EXPECT_LE(patch.rope_px, 4.001F);
   }
@@ -59,7 +61,9 @@ TEST(Patch, AWideRopeIsShrunk) {
 class PatchStoreTest : public ::testing::Test {
  protected:
   void make(std::uint64_t scenes) {
-    const auto made = make_patches(folder_.path(), kSeed, scenes, small_, 2, [] {});
+    const auto made = make_patches(
+        folder_.path(), {.seed = kSeed, .scenes = scenes, .several = several_, .patch = small_}, 2,
+        [] {});
     ASSERT_TRUE(made) << made.error().message;
   }
   [[nodiscard]] std::filesystem::path first_shard() const {
@@ -67,6 +71,7 @@ class PatchStoreTest : public ::testing::Test {
   }
 
   PatchConfig small_{.each = 1, .half_widths = 4, .least_half_px = 12};
+  double several_ = 0;
   test::TemporaryFolder folder_;
 };
 
@@ -76,12 +81,28 @@ TEST_F(PatchStoreTest, GivesBackWhatWasMade) {
   ASSERT_TRUE(store) << store.error().message;
   ASSERT_GT(store->size(), 30U);
   const auto stored = store->read(0);
-  const auto made = patches_of(synth::Part::kTraining, kSeed, 0, small_);
+  const auto made = patches_of(synth::Split::kWide, synth::Part::kTraining, kSeed, 0, small_);
   ASSERT_TRUE(stored && made);
   EXPECT_EQ(stored->color_bgr, made->front().color_bgr);
   EXPECT_EQ(stored->depth, made->front().depth);
   ASSERT_EQ(stored->strands.size(), made->front().strands.size());
   EXPECT_EQ(stored->strands[0].points.size(), made->front().strands[0].points.size());
+}
+
+TEST_F(PatchStoreTest, AShareOfTheScenesShowsSeveralRopes) {
+  several_ = 0.5;
+  make(1);
+  const auto store = PatchStore::open(folder_.path());
+  ASSERT_TRUE(store) << store.error().message;
+  int several = 0;
+  for (std::size_t i = 0; i < store->size(); ++i) {
+    const auto patch = store->read(i);
+    ASSERT_TRUE(patch);
+    several += std::any_of(patch->strands.begin(), patch->strands.end(),
+                           [](const Strand& strand) { return strand.rope > 0; });
+  }
+  EXPECT_GT(several, 10);
+  EXPECT_LT(several, 30);
 }
 
 TEST_F(PatchStoreTest, AnEmptyFolderIsAnError) {

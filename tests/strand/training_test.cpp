@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "field/network.hpp"
+#include "field/sight.hpp"
 #include "frame/temporary_folder.hpp"
 #include "reference/program.hpp"
 #include "strand/export.hpp"
@@ -33,7 +34,8 @@ class FieldTraining : public ::testing::Test {
   void SetUp() override {
     if (folder_ != nullptr) return;
     folder_ = new test::TemporaryFolder;
-    const auto made = make_patches(patches(), 0, 1, small_recipe().data.patch, 2, [] {});
+    const auto made =
+        make_patches(patches(), {.scenes = 1, .patch = small_recipe().data.patch}, 2, [] {});
     ASSERT_TRUE(made) << made.error().message;
   }
   static void TearDownTestSuite() {
@@ -106,6 +108,32 @@ TEST_F(FieldTraining, ANewRunMayBeginWithWhatAnEarlierOneLearned) {
   const auto other = start_from(earlier, recipe, torch::kCPU);
   ASSERT_FALSE(other);
   EXPECT_EQ(other.error().code, ErrorCode::kBadInput);
+}
+
+TEST_F(FieldTraining, ANewRunMayBeginWithExportedWeights) {
+  State earlier = start(small_recipe(), torch::kCPU);
+  ASSERT_TRUE(train(earlier, options("exported", 20), torch::kCPU));
+  const auto store = PatchStore::open(patches());
+  ASSERT_TRUE(store);
+  const auto begun = start_from(exported(earlier, ""), *store, small_recipe(), torch::kCPU);
+  ASSERT_TRUE(begun) << begun.error().message;
+  EXPECT_EQ(begun->step, 0);
+  const torch::NoGradGuard no_gradients;
+  const auto planes = torch::randn({4, field::kPlanes, 64, 64});
+  earlier.average->eval();
+  Network same = begun->network;
+  same->eval();
+  const auto said = earlier.average->forward(planes);
+  EXPECT_LT((same->forward(planes) - said).abs().max().item<double>(),
+            1e-3 * said.abs().max().item<double>());
+  // The norms have the statistics of samples: training begins where the earlier run ended.
+  for (const auto& item : begun->network->named_buffers()) {
+    if (item.key().find("running_var") == std::string::npos) continue;
+    EXPECT_GT((item.value() - 1).abs().max().item<double>(), 1e-3) << item.key();
+  }
+  auto recipe = small_recipe();
+  recipe.network.fine = 32;
+  EXPECT_FALSE(start_from(exported(earlier, ""), *store, recipe, torch::kCPU));
 }
 
 TEST_F(FieldTraining, WhatIsNoCheckpointIsRefused) {
