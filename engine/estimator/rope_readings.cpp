@@ -18,15 +18,17 @@ using Points = std::vector<Vector2f>;
 constexpr int kCompared = 64;        // points of a path that are held against another one's
 constexpr float kSameWidths = 1.5F;  // between two paths of one rope, at most
 
-// Of a set of the mask alone, in its costs: every other rope is right here, as flowdlo_ropes_report
-// has it on 128 drawn scenes.
-constexpr float kEvenLead = 1.2F;
-constexpr float kLeadScale = 0.5F;
-
-// Share of the ropes that are right where both readings have them, and where the mask has none like
-// it, whatever the lead: flowdlo_ropes_report on 448 drawn scenes.
-constexpr float kAgreed = 0.995F;
-constexpr float kDisputed = 0.83F;
+// Odds of a rope are exp(at_none + each * lead). With a strand field: most likely on 112 drawn and
+// 236 rendered scenes (`flowdlo_ropes_report --scenes 4 --rendered-scenes 300 --rendered-first
+// 1000100
+// --field weights/field.safetensors`); of the mask alone, in its costs: on 128 drawn scenes.
+struct Odds {
+  float at_none = 0;
+  float each = 0;
+};
+constexpr Odds kAgreed{1.5F, 0.47F};    // both readings have it
+constexpr Odds kDisputed{-0.6F, 0.2F};  // the mask has none like it
+constexpr Odds kAlone{-2.4F, 2.0F};
 
 float apart_px(const Points& a, const Points& b) {
   float most = 0;
@@ -81,15 +83,10 @@ Result<RopeReadings> read_ropes(const Frame& frame, int ropes, const SeeAxes& se
 }
 
 float told_apart(float lead, Witness witness) {
-  switch (witness) {
-    case Witness::kAgrees:
-      return kAgreed;
-    case Witness::kDiffers:
-      return kDisputed;
-    case Witness::kNone:
-      break;
-  }
-  return 1 / (1 + std::exp((kEvenLead - lead) / kLeadScale));
+  const Odds& odds = witness == Witness::kAgrees    ? kAgreed
+                     : witness == Witness::kDiffers ? kDisputed
+                                                    : kAlone;
+  return 1 / (1 + std::exp(-(odds.at_none + odds.each * lead)));
 }
 
 }  // namespace flowdlo::estimator

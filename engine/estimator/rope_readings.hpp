@@ -39,8 +39,8 @@ struct RopeReadings {
 /// than a width and a half.
 [[nodiscard]] bool same_rope(const path::Path& a, const path::Path& b, float width_px);
 
-/// [0, 1] how likely a rope is one of the frame's: by what its witness says, or without one by
-/// `lead`, what any set of ropes without it costs more (path::RopePaths).
+/// [0, 1] how likely a rope is one of the frame's: by what its witness says and by `lead`, what any
+/// set of ropes without it costs more (path::RopePaths).
 [[nodiscard]] float told_apart(float lead, Witness witness);
 
 }  // namespace flowdlo::estimator

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "field/channel.hpp"
+#include "field/region.hpp"
 #include "field/surface.hpp"
 
 namespace flowdlo::field {
@@ -59,6 +60,13 @@ float FieldView::shown(const Vector2f& p, const Vector2f& along, bool below_only
     }
   }
   return std::min(1.0F, most);
+}
+
+float FieldView::width_px(const Vector2f& p) const {
+  const Surface surface(channels_);
+  const Vector2f at = to_region(p);
+  if (surface.at(at, kRope) < 0.5F) return 0;
+  return kRope_px * std::exp2(surface.at(at, kWidth)) / (0.5F * (scale_.x() + scale_.y()));
 }
 
 float FieldView::tip_ahead(const Vector2f& p, const Vector2f& outward) const {

@@ -24,6 +24,9 @@ class FieldView {
   [[nodiscard]] float shown(const Eigen::Vector2f& p, const Eigen::Vector2f& along,
                             bool below_only) const;
 
+  /// Width of the strand that shows at `p`, pixels of the frame; 0 where none does.
+  [[nodiscard]] float width_px(const Eigen::Vector2f& p) const;
+
   /// [0, 1] how clearly the rope's own end shows within a width ahead of `p`, towards `outward`.
   [[nodiscard]] float tip_ahead(const Eigen::Vector2f& p, const Eigen::Vector2f& outward) const;
 

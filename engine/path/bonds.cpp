@@ -9,6 +9,7 @@
 #include "path/cover.hpp"
 #include "path/gap_curve.hpp"
 #include "path/limits.hpp"
+#include "path/walk_costs.hpp"
 
 namespace flowdlo::path {
 namespace {
@@ -282,14 +283,12 @@ class Builder {
     const float apart = (strands_.end(a).point_px - strands_.end(b).point_px).norm();
     const float straight = kGapStart + apart / (kGapWidths * strands_.scale_px);
     const float most = most_for(a, b);
-    const float beside = extra + strands_.end(a).link_cost + strands_.end(b).link_cost;
-    if (straight < most) gaps.push_back({a, b, beside, straight, most});
+    if (straight < most) gaps.push_back({a, b, extra, straight, most});
   }
 
   void link(const Gap& gap) {
     const StrandEnd& a = strands_.end(gap.from);
     const StrandEnd& b = strands_.end(gap.to);
-    if (several_ && strands_.apart && covered(a.point_px, b.point_px)) return pass_below(gap);
     const float depth = misfit(a, b, true);
     const float kept = std::max(most_at(gap.from), most_at(gap.to));
     const float curve_most = std::min(gap.most, kept) - gap.extra - kGapStart - depth + kRounding;
@@ -298,32 +297,11 @@ class Builder {
     if (curve < curve_most && cost < gap.most) add(gap.from, gap.to, cost, true);
   }
 
-  // Whether the mask shows a rope all the way from one place to another.
-  [[nodiscard]] bool covered(const Vector2f& from, const Vector2f& to) const {
-    const auto steps = static_cast<int>(std::ceil((to - from).norm()));
-    for (int i = 0; i <= steps; ++i) {
-      const float t = static_cast<float>(i) / static_cast<float>(std::max(1, steps));
-      if (!cover_.masked((1 - t) * from + t * to)) return false;
-    }
-    return true;
-  }
-
-  // Of strands that meet nowhere the lower one of a crossing has a gap there: it bends as little as
-  // through any other crossing.
-  void pass_below(const Gap& gap) {
-    const StrandEnd& a = strands_.end(gap.from);
-    const StrandEnd& b = strands_.end(gap.to);
-    const float trust = std::min(trust_in(gap.from), trust_in(gap.to));
-    const float depth = misfit(a, b, false);
-    const float cost = gap.extra + trust * bending(a, b, strands_.scale_px) + depth;
-    if (cost < gap.most) add(gap.from, gap.to, cost, true);
-  }
-
   // No gap costs more than leaving out what lies beyond it.
   [[nodiscard]] float most_for(int a, int b) const {
     const float covers_px =
         std::max(strands_.list[a / 2].covers_px, strands_.list[b / 2].covers_px);
-    return std::max(kMostGapCost, strands_.left_out_cost * covers_px / strands_.scale_px);
+    return std::max(kMostGapCost, kLeftOutCost * covers_px / strands_.scale_px);
   }
 
   const Strands& strands_;

@@ -16,7 +16,7 @@ struct Bond {
 
 /// [2 * strands] the bonds of each end, cheapest first; symmetric up to the cut at a few an end.
 /// For `several` ropes a gap may lead from one end of a strand to its other one, for there may be
-/// rings; where strands meet nowhere, one that the mask covers is a way through a crossing; and
+/// rings, and
 /// depths on both sides of a bond must fit. Of one rope the depths do not count here: each way is
 /// lifted and held against the depth image as a whole, which is right more often.
 [[nodiscard]] std::vector<std::vector<Bond>> make_bonds(const Strands& strands,

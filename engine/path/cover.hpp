@@ -24,6 +24,9 @@ class Cover {
   Cover(const Region& region, const Frame& frame, float width_px,
         const field::FieldView* seen = nullptr);
 
+  /// Of the frame's camera.
+  [[nodiscard]] float focal_px() const { return frame_.intrinsics.fx; }
+
   /// As field::FieldView::shown; 0 without a field.
   [[nodiscard]] float shown(const Eigen::Vector2f& p, const Eigen::Vector2f& along,
                             bool below_only) const;

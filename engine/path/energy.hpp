@@ -14,6 +14,8 @@ enum LinkTerm : std::size_t {
   kLinkStump,    ///< the same, as far as one strand is a stump whose direction is hardly known
   kLinkOpen,     ///< 1 - exp(-l / (0.3 w)), l: over which the background shows where a rope would
   kLinkUnshown,  ///< 1 - exp(-l / (2 w)), l: over which the mask is set but no strand runs that way
+  kLinkColor,    ///< how much another colour one strand has than the other
+  kLinkDepth,    ///< how badly the depths on both sides fit one smooth strand
   kLinkTerms
 };
 using LinkTerms = std::array<float, kLinkTerms>;
@@ -22,15 +24,18 @@ using LinkTerms = std::array<float, kLinkTerms>;
 enum StopTerm : std::size_t {
   kStopStart,   ///< 1
   kStopUnseen,  ///< how little it looks like a rope's end; 0 at the image's border
-  kStopBorder,  ///< 1 at the image's border
   kStopTerms
 };
 using StopTerms = std::array<float, kStopTerms>;
 
-/// Fitted by `flowdlo_energy_fit` to the ends of strands in `wide` training scenes 3200000 to
-/// 3200899, of which the right one of all links and stopping is to be the likeliest.
-inline constexpr LinkTerms kLinkWeights{1.0F, 1.05F, 0.95F, 2.0F, 3.4F};
-inline constexpr StopTerms kStopWeights{3.8F, 4.2F, 1.3F};
+/// Fitted by `flowdlo_energy_fit`: the first five to the ends of strands in 900 `wide` training
+/// scenes of one rope (from 3200000 on), of which the right one of all links is to be the
+/// likeliest; colour, depth and what it costs to stop to 700 scenes of several ropes beside 200 of
+/// those (`--scenes 200
+/// --several 700`). All seven fitted to both (2.1, 1.0, 0.4, 2.0, 1.7, 1.0, 1.05) part several
+/// ropes no better, and make one rope's path worse by 0.08 cm.
+inline constexpr LinkTerms kLinkWeights{1.0F, 1.05F, 0.95F, 2.0F, 3.4F, 0.8F, 1.0F};
+inline constexpr StopTerms kStopWeights{1.6F, 4.7F};
 
 /// Of each width of a strand that a path leaves out. Chosen on `wide` training scenes 3000500 to
 /// 3000749 by `flowdlo_reading_report`: 1 is worse by 0.1 cm, 4 by 0.02.

@@ -17,14 +17,30 @@ constexpr float kShown = 0.4F;           // of the field: as much as shows it su
 constexpr float kLongWidths = 3.0F;      // scales of the terms, in widths
 constexpr float kOpenWidths = 0.3F;
 constexpr float kUnshownWidths = 2.0F;
+constexpr float kDepthNoise_m = 0.002F;
+constexpr float kDepthNoise = 0.2F;  // metres of depth a metre along the link
 
 float saturated(float length, float scale) { return 1 - std::exp(-length / scale); }
+
+// [0, 1) how badly the depths on both sides fit one smooth strand.
+float depth_misfit(const StrandEnd& from, const StrandEnd& to, float width_px, float focal_px) {
+  if (from.depth_m <= 0 || to.depth_m <= 0 || focal_px <= 0) return 0;
+  const float length_px = (to.point_px - from.point_px).norm();
+  const float metres_per_px = 0.5F * (from.depth_m + to.depth_m) / focal_px;
+  const float expected = 0.5F * length_px * (from.slope_per_px - to.slope_per_px);
+  const float off = std::abs(to.depth_m - from.depth_m - expected);
+  const float noise = kDepthNoise_m + (0.5F * width_px + kDepthNoise * length_px) * metres_per_px;
+  return 1 - std::exp(-0.5F * (off / noise) * (off / noise));
+}
 
 class Linker {
  public:
   Linker(const StrandEnd& from, const StrandEnd& to, const Cover& cover, float scale_px,
          float trust)
-      : from_(from), to_(to), cover_(cover), w_(scale_px), trust_(trust) {}
+      : from_(from), to_(to), cover_(cover), w_(scale_px), trust_(trust) {
+    fit_[kLinkColor] = color_misfit(from.look, to.look);
+    fit_[kLinkDepth] = depth_misfit(from, to, scale_px, cover.focal_px());
+  }
 
   Link search(float most) {
     std::array<Attempt, kTangents.size() * kTangents.size()> attempts;
@@ -53,7 +69,7 @@ class Linker {
 
   // A curve, and what its length and its bends cost.
   [[nodiscard]] Attempt drawn(float leaves, float enters) const {
-    Attempt attempt{end_curve(from_, to_, leaves, enters, w_, true)};
+    Attempt attempt{end_curve(from_, to_, leaves, enters, w_, true), fit_};
     const float bend = std::log1p(attempt.curve.bending / kBend);
     attempt.terms[kLinkLong] = std::log1p(attempt.curve.length_px / (kLongWidths * w_));
     attempt.terms[kLinkBend] = trust_ * bend;
@@ -95,6 +111,7 @@ class Linker {
   const Cover& cover_;
   float w_;
   float trust_;
+  LinkTerms fit_{};  // what does not depend on the curve
 };
 
 }  // namespace

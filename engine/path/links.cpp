@@ -5,6 +5,8 @@
 #include <limits>
 #include <utility>
 
+#include "path/walk_costs.hpp"
+
 namespace flowdlo::path {
 namespace {
 
@@ -34,10 +36,17 @@ std::vector<int> open_ends(const Strands& strands) {
   return ends;
 }
 
+// What lengths between two ends are measured in: how wide the strands are there, for ropes differ,
+// and so do the near and the far end of one.
+float scale_between(const StrandEnd& a, const StrandEnd& b, const Strands& strands) {
+  if (a.look.width_px <= 0 || b.look.width_px <= 0) return strands.scale_px;
+  return std::max(kLeastScalePx, 0.5F * (a.look.width_px + b.look.width_px));
+}
+
 // No link costs more than leaving out what lies beyond it.
 float most_for(int a, int b, const Strands& strands) {
-  const float covers_px = std::max(strands.list[a / 2].covers_px, strands.list[b / 2].covers_px);
-  return std::max(kMostEnergy, strands.left_out_cost * covers_px / strands.scale_px);
+  return std::max({kMostEnergy, left_out_cost(strands.list[a / 2], strands),
+                   left_out_cost(strands.list[b / 2], strands)});
 }
 
 }  // namespace
@@ -46,27 +55,32 @@ StopTerms stop_terms(const StrandEnd& end) {
   StopTerms terms{};
   terms[kStopStart] = 1;
   terms[kStopUnseen] = end.leaves ? 0 : 1 - end.tip_seen;
-  terms[kStopBorder] = end.leaves ? 1 : 0;
   return terms;
 }
 
 Link link_between(int from, int to, const Strands& strands, const Cover& cover, float most) {
   const auto shorter = static_cast<float>(
       std::min(strands.list[from / 2].points_px.size(), strands.list[to / 2].points_px.size()));
-  const float trust = std::min(1.0F, shorter / (kKnownWidths * strands.scale_px));
-  return best_link(strands.end(from), strands.end(to), cover, strands.scale_px, trust, most);
+  const StrandEnd& a = strands.end(from);
+  const StrandEnd& b = strands.end(to);
+  const float scale_px = scale_between(a, b, strands);
+  const float trust = std::min(1.0F, shorter / (kKnownWidths * scale_px));
+  return best_link(a, b, cover, scale_px, trust, most);
 }
 
 std::vector<std::vector<Bond>> make_links(const Strands& strands, const Region& region,
-                                          const Frame& frame) {
+                                          const Frame& frame, bool several) {
   const Cover cover(region, frame, strands.width_px, strands.seen);
   const std::vector<int> ends = open_ends(strands);
   std::vector<Pair> pairs;
   for (std::size_t i = 0; i < ends.size(); ++i) {
     for (std::size_t j = i + 1; j < ends.size(); ++j) {
-      if (ends[i] / 2 == ends[j] / 2) continue;
-      const float apart = (strands.end(ends[i]).point_px - strands.end(ends[j]).point_px).norm();
-      const float least = least_energy(apart, strands.scale_px);
+      if (ends[i] / 2 == ends[j] / 2 && !several) continue;
+      const StrandEnd& a = strands.end(ends[i]);
+      const StrandEnd& b = strands.end(ends[j]);
+      const float apart = (a.point_px - b.point_px).norm();
+      const float least = least_energy(apart, scale_between(a, b, strands));
+      if (several && a.leaves && b.leaves) continue;
       const float most = most_for(ends[i], ends[j], strands);
       if (least < most) pairs.push_back({ends[i], ends[j], least, most});
     }

@@ -9,8 +9,11 @@
 namespace flowdlo::path {
 
 /// [2 * strands] the links of each end, cheapest first; symmetric up to the cut at a few an end.
+/// For `several` ropes a link may lead from one end of a strand to its other one, for there may be
+/// rings, but none from one end at the image's border to another: what comes back is another rope.
 [[nodiscard]] std::vector<std::vector<Bond>> make_links(const Strands& strands,
-                                                        const Region& region, const Frame& frame);
+                                                        const Region& region, const Frame& frame,
+                                                        bool several = false);
 
 /// The link between two ends, whatever it costs: what the weights are fitted to.
 [[nodiscard]] Link link_between(int from, int to, const Strands& strands, const Cover& cover,

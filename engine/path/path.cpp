@@ -176,7 +176,9 @@ Result<Traversals> trace(const Frame& frame, const TraceConfig& config) {
 Result<RopePaths> trace_ropes(const Frame& frame, int ropes) {
   const Read<RopePaths> read = [&](const Strands& strands, const Region& region,
                                    const Frame& seen) {
-    return rope_paths(strands, region, seen, ropes);
+    const auto bonds = ropes == 1 ? make_bonds(strands, region, seen, true)
+                                  : bonds_of_several(strands, region, seen);
+    return rope_paths(strands, bonds, region, seen, ropes);
   };
   return guard::guarded("path", [&] {
     return trace_mask(frame, ropes, read, [&](RopePaths parted, RopePaths whole) {

@@ -58,27 +58,6 @@ float width_misfit(float a, float b) {
   return kMostWidthCost * (1 - std::exp(-0.5F * ratio * ratio / kMostWidthCost));
 }
 
-// The bonds of several ropes, which need not be of one width; one that leaves the image is not
-// taken for another one that comes back.
-std::vector<std::vector<Bond>> bonds_of_several(const Strands& strands, const Region& region,
-                                                const Frame& frame) {
-  auto bonds = make_bonds(strands, region, frame, true);
-  const std::vector<float> widths = end_widths(strands, region);
-  for (std::size_t from = 0; from < bonds.size(); ++from) {
-    if (strands.end(static_cast<int>(from)).leaves) {
-      const auto returns = [&](const Bond& bond) {
-        return bond.gap && strands.end(bond.to).leaves;
-      };
-      auto& list = bonds[from];
-      list.erase(std::remove_if(list.begin(), list.end(), returns), list.end());
-    }
-    for (Bond& bond : bonds[from]) {
-      bond.cost += width_misfit(widths[from], widths[static_cast<std::size_t>(bond.to)]);
-    }
-  }
-  return bonds;
-}
-
 // The strands that tell ways apart, the same for a way and its reverse.
 std::vector<int> key_of(const Traversal& way, const Strands& strands) {
   std::vector<int> forwards;
@@ -122,10 +101,27 @@ Error no_set(int ropes, const Strands& strands) {
 
 }  // namespace
 
-Result<RopePaths> rope_paths(const Strands& strands, const Region& region, const Frame& frame,
-                             int ropes) {
-  const auto bonds = ropes == 1 ? make_bonds(strands, region, frame, true)
-                                : bonds_of_several(strands, region, frame);
+std::vector<std::vector<Bond>> bonds_of_several(const Strands& strands, const Region& region,
+                                                const Frame& frame) {
+  auto bonds = make_bonds(strands, region, frame, true);
+  const std::vector<float> widths = end_widths(strands, region);
+  for (std::size_t from = 0; from < bonds.size(); ++from) {
+    if (strands.end(static_cast<int>(from)).leaves) {
+      const auto returns = [&](const Bond& bond) {
+        return bond.gap && strands.end(bond.to).leaves;
+      };
+      auto& list = bonds[from];
+      list.erase(std::remove_if(list.begin(), list.end(), returns), list.end());
+    }
+    for (Bond& bond : bonds[from]) {
+      bond.cost += width_misfit(widths[from], widths[static_cast<std::size_t>(bond.to)]);
+    }
+  }
+  return bonds;
+}
+
+Result<RopePaths> rope_paths(const Strands& strands, const std::vector<std::vector<Bond>>& bonds,
+                             const Region& region, const Frame& frame, int ropes) {
   const auto sets = search_sets(strands, bonds, ropes, kSets);
   if (sets.empty()) return no_set(ropes, strands);
   RopePaths result;

@@ -3,15 +3,23 @@
 
 #include "flowdlo/frame.hpp"
 #include "flowdlo/result.hpp"
+#include "path/bonds.hpp"
 #include "path/path.hpp"
 #include "path/region.hpp"
 #include "path/strands.hpp"
 
 namespace flowdlo::path {
 
-/// As `trace_ropes`, of strands that are known; places are those of the frame that `region` was cut
-/// out of.
-[[nodiscard]] Result<RopePaths> rope_paths(const Strands& strands, const Region& region,
-                                           const Frame& frame, int ropes);
+/// As `trace_ropes`, of strands and bonds [2 * strands] that are known; places are those of the
+/// frame that `region` was cut out of.
+[[nodiscard]] Result<RopePaths> rope_paths(const Strands& strands,
+                                           const std::vector<std::vector<Bond>>& bonds,
+                                           const Region& region, const Frame& frame, int ropes);
+
+/// The bonds of the mask's own strands, where there may be several ropes, which need not be of one
+/// width; one that leaves the image is not taken for another one that comes back.
+[[nodiscard]] std::vector<std::vector<Bond>> bonds_of_several(const Strands& strands,
+                                                              const Region& region,
+                                                              const Frame& frame);
 
 }  // namespace flowdlo::path

@@ -12,7 +12,7 @@ namespace flowdlo::path {
 namespace {
 
 constexpr std::size_t kPairings = 48;  // of one price
-constexpr int kPriceSteps = 6;         // by factors of two, at which a wanted number is looked for
+constexpr int kPriceSteps = 6;         // each twice as far, at which a wanted number is looked for
 
 // The ends of all strands as things to be paired: by a bond, or, where a strand is left out, its
 // two with each other.
@@ -44,7 +44,7 @@ class Ends {
   [[nodiscard]] std::vector<RopeSet> sets(float price) const {
     std::vector<float> alone;
     for (int end = 0; end < 2 * static_cast<int>(strands_.list.size()); ++end) {
-      alone.push_back(stop_cost(strands_.end(end)) + 0.5F * price);
+      alone.push_back(std::max(0.0F, stop_cost(strands_.end(end)) + 0.5F * price));
     }
     std::vector<RopeSet> result;
     for (const Pairing& pairing : cheapest_pairings(alone, pairs_, kPairings)) {
@@ -109,18 +109,20 @@ std::vector<RopeSet> search_sets(const Strands& strands,
   const Ends ends(strands, bonds);
   const auto wanted = static_cast<std::size_t>(ropes);
   std::vector<RopeSet> found;
-  float price = kRopeCost;
+  float price = strands.rope_cost;
+  float change = 0.5F;
   for (int step = 0; step <= kPriceSteps && found.empty(); ++step) {
     std::vector<RopeSet> sets = ends.sets(price);
     if (sets.empty()) return {};
     const bool too_many = sets.front().ways.size() > wanted;
     for (RopeSet& set : sets) {
       if (ropes > 0 && set.ways.size() != wanted) continue;
-      for (const Traversal& way : set.ways) set.cost += way.closed ? kRingCost : kRopeCost;
+      for (const Traversal& way : set.ways)
+        set.cost += way.closed ? strands.ring_cost : strands.rope_cost;
       found.push_back(std::move(set));
     }
-    const bool last = step + 1 == kPriceSteps;
-    price = too_many ? 2 * price : (last ? 0 : price / 2);
+    change *= 2;
+    price = strands.rope_cost + (too_many ? change : -change);
   }
   std::stable_sort(found.begin(), found.end(), cheaper);
   if (found.size() > count) found.resize(count);

@@ -9,15 +9,6 @@
 
 namespace flowdlo::path {
 
-/// What one more rope costs beside where its two ends lie, dimensionless as Bond::cost. A gap that
-/// costs more parts two ropes, and what is left out for less is no rope: a stretch of two widths.
-/// Chosen on drawn scenes (flowdlo_ropes_report): below 2, ropes that gaps part fall to pieces;
-/// from 6 on, ropes that cross flatly are joined.
-inline constexpr float kRopeCost = 3.5F;
-
-/// And one more ring, which has no ends.
-inline constexpr float kRingCost = 1.0F;
-
 struct RopeSet {
   std::vector<Traversal> ways;  ///< `cost` of each is 0: only that of all is known
   float cost = 0;
@@ -25,8 +16,8 @@ struct RopeSet {
 
 /// At most `count` sets of `ropes` ways, or with 0 of any number, cheapest first; empty where there
 /// are none. A set pays for its bonds, for where its ways end, for what it leaves out, and for each
-/// way kRopeCost, or kRingCost where it is closed. Every end of a strand has one bond at most and
-/// every strand is either used or left out, so that a set is a pairing of ends
+/// way Strands::rope_cost, or ring_cost where it is closed. Every end of a strand has one bond at
+/// most and every strand is either used or left out, so that a set is a pairing of ends
 /// (`cheapest_pairings`): exact for any number of ropes as long as that is. A number that is asked
 /// for comes from the price of one more rope at which it is the cheapest one. Deterministic.
 [[nodiscard]] std::vector<RopeSet> search_sets(const Strands& strands,

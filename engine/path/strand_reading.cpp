@@ -168,9 +168,13 @@ Strands strands_of(const Frame& frame, const field::Axes& axes, const Region& re
   see_tips(stretches, axes, region);
   Strands strands = make_strands(stretches, axes.width_px, region, frame);
   strands.seen = &axes.view;
-  strands.left_out_cost = kLeftOutEnergy;
+  strands.rope_cost = 0;  // its ends' cost is all
   for (Strand& strand : strands.list) {
-    for (StrandEnd& end : strand.ends) end.end_cost = energy_of(stop_terms(end), kStopWeights);
+    for (StrandEnd& end : strand.ends) {
+      end.look = look_of(strand.points_px, strands.scale_px, region, frame, axes.view);
+      end.end_cost = energy_of(stop_terms(end), kStopWeights);
+      std::reverse(strand.points_px.begin(), strand.points_px.end());
+    }
   }
   return strands;
 }
@@ -189,8 +193,9 @@ Result<RopePaths> trace_ropes(const Frame& frame, const field::Axes& axes, int r
   const auto trace = [&](const Frame& seen, const field::Axes& lines) -> Result<RopePaths> {
     const auto region = clean(seen, ropes);
     if (!region) return region.error();
-    const auto stretches = cut_at_joins(stretches_of(lines, *region), lines.width_px);
-    return rope_paths(make_strands(stretches, lines.width_px, *region, seen), *region, seen, ropes);
+    const Strands strands = strands_of(seen, lines, *region);
+    return rope_paths(strands, make_links(strands, *region, seen, ropes != 1), *region, seen,
+                      ropes);
   };
   return trace_axes<RopePaths>(frame, axes, trace);
 }

@@ -21,7 +21,6 @@ namespace {
 using Eigen::Vector2f;
 using Points = std::vector<Vector2f>;
 
-constexpr float kLeastScalePx = 4.0F;
 constexpr float kFullShare = 0.85F;      // of the usual half width: a tip begins below
 constexpr float kTipWidths = 5.0F;       // the stretch that tells what is usual
 constexpr float kDoubledWidths = 1.25F;  // the mask is at least this wide,
@@ -33,8 +32,6 @@ constexpr float kCutWidths = 3.0F;       // how far ahead an occluder is looked 
 constexpr float kHeadingWidths = 0.75F;  // from the middle of what tells the direction to the end
 constexpr float kMaxSlope = 1.5F;        // metres of depth a metre sideways
 constexpr float kLeastMasked = 0.3F;     // share of a stretch that the mask knows too
-constexpr float kEndUnseen = 1.5F;       // cost of a path's end where no end shows
-constexpr float kLinkAtTip = 2.0F;       // and of going on where one does
 
 float at(const cv::Mat& image, const Vector2f& p) {
   const int u = std::clamp(geometry::nearest_px(p.x()), 0, image.cols - 1);
@@ -256,7 +253,6 @@ void find_forks(Strands& strands) {
 Strands make_strands(const std::vector<Stretch>& stretches, float width_px, const Region& region,
                      const Frame& frame) {
   Strands strands;
-  strands.apart = true;
   strands.width_px = width_px;
   strands.scale_px = std::max(kLeastScalePx, width_px);
   const Cover cover(region, frame, width_px);
@@ -272,11 +268,6 @@ Strands make_strands(const std::vector<Stretch>& stretches, float width_px, cons
       StrandEnd& end = strand.ends[side];
       measure_end(points, region, frame, cover, strands.scale_px, end);
       end.tip_seen = stretch.tips[side];
-      end.end_cost = end.cut ? kEndAtCut
-                     : at_border(points.front(), region, frame, width_px)
-                         ? 0
-                         : kEndUnseen * (1 - end.tip_seen);
-      end.link_cost = kLinkAtTip * end.tip_seen;
       std::reverse(points.begin(), points.end());
     }
     strand.points_px = std::move(points);

@@ -6,12 +6,22 @@
 #include <vector>
 
 #include "field/view.hpp"
+#include "path/end_look.hpp"
 #include "path/graph.hpp"
 
 namespace flowdlo::path {
 
-/// What a path over the mask's own strands pays for each width of length that it leaves out.
-inline constexpr float kLeftOutCost = 1.5F;
+/// What one more rope of the mask's own strands costs beside where its two ends lie, dimensionless
+/// as Bond::cost. A gap that costs more parts two ropes, and what is left out for less is no rope:
+/// a stretch of two widths. Chosen on drawn scenes (flowdlo_ropes_report): below 2, ropes that gaps
+/// part fall to pieces; from 6 on, ropes that cross flatly are joined.
+inline constexpr float kRopeCost = 3.5F;
+
+/// And one more ring, which has no ends.
+inline constexpr float kRingCost = 1.0F;
+
+/// Lengths are measured in the rope's width, but in no less than this.
+inline constexpr float kLeastScalePx = 4.0F;
 
 /// One end of a strand, outside the zone that a crossing or a tip distorts.
 struct StrandEnd {
@@ -25,7 +35,7 @@ struct StrandEnd {
   bool leaves = false;            ///< the image ends where it does
   float tip_seen = 0;             ///< [0, 1] how much the strand field shows the rope's own end
   float end_cost = 0;             ///< what a path pays that ends here, where it is a tip
-  float link_cost = 0;            ///< and one that goes on from here, beside the bond's own cost
+  EndLook look{};                 ///< of the strand, where a field shows it
   int crossing = -1;              ///< the crossing it runs into; -1: a tip
   int node = -1;                  ///< the graph's node there
   Eigen::Vector2f node_px{0, 0};  ///< and where it is
@@ -54,11 +64,12 @@ struct Bridge {
 struct Strands {
   std::vector<Strand> list;
   std::vector<Bridge> bridges;
-  bool apart = false;  ///< a strand field's: a crossing is a gap in the lower one
   float width_px = 1;  ///< the rope's
   float scale_px = 1;  ///< the width, but no less than four pixels: what lengths are measured in
-  float left_out_cost = kLeftOutCost;      ///< of each `scale_px` of length that a path leaves out
-  const field::FieldView* seen = nullptr;  ///< what the strand field shows beside them, or null
+  float rope_cost = kRopeCost;  ///< of one more rope, beside what its ends cost
+  float ring_cost = kRingCost;  ///< and of a ring, which has none
+  const field::FieldView* seen =
+      nullptr;  ///< of a strand field's: what it shows beside them; or null
 
   [[nodiscard]] const StrandEnd& end(int id) const { return list[id / 2].ends[id % 2]; }
 };
@@ -71,7 +82,8 @@ struct Stretch {
 };
 
 /// Stretches as strands that meet nowhere: where one ends that is no tip, its rope goes on below
-/// another strand or an occluder, as a link. Only what lies on the mask is won by using it.
+/// another strand or an occluder, as a link. Only what lies on the mask is won by using it. What it
+/// costs to stop at an end is not known here.
 [[nodiscard]] Strands make_strands(const std::vector<Stretch>& stretches, float width_px,
                                    const Region& region, const Frame& frame);
 

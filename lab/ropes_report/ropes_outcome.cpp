@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <numeric>
 #include <utility>
 
 #include "estimator/conditions.hpp"
@@ -15,6 +16,7 @@
 #include "eval/metrics.hpp"
 #include "field/axes.hpp"
 #include "field/strand_field.hpp"
+#include "geometry/polyline.hpp"
 #include "prior_report/traversal.hpp"
 #include "scene/setting.hpp"
 
@@ -35,6 +37,16 @@ std::optional<field::Axes> seen_axes(const Frame& frame, const RopesRun& run, fl
   const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - begin;
   outcome.field_ms = took.count();
   return outcome.axes;
+}
+
+// The order in which the ropes will be told.
+std::vector<std::size_t> longest_first(const std::vector<Estimate>& ropes) {
+  std::vector<std::size_t> order(ropes.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return geometry::length(ropes[a].nodes) > geometry::length(ropes[b].nodes);
+  });
+  return order;
 }
 
 // Paths and refined priors, as the estimator makes them.
@@ -58,6 +70,10 @@ Result<Ropes> by_priors(const Frame& frame, const RopesRun& run, RopesOutcome& o
     rope.closed = parted->paths.ropes[i].closed;
     rope.confidence = estimator::told_apart(parted->paths.lead[i], parted->witness[i]);
     result.ropes.push_back(std::move(rope));
+  }
+  for (const std::size_t i : longest_first(result.ropes)) {
+    outcome.lead.push_back(parted->paths.lead[i]);
+    outcome.witness.push_back(parted->witness[i]);
   }
   result.instances = estimator::sort_longest_first(parted->instances, result.ropes);
   result.crossings = estimator::rope_crossings(result.ropes, frame);

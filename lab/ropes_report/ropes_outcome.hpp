@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "estimator/rope_readings.hpp"
 #include "field/axes.hpp"
 #include "field/network.hpp"
 #include "flowdlo/centerline.hpp"
@@ -22,6 +23,8 @@ struct RopesOutcome {
   std::vector<double> index_cm;    ///< [right] Eq. (4.1), in the better direction
   std::vector<double> confidence;  ///< [found]
   std::vector<bool> rope_right;    ///< [found]
+  std::vector<float> lead;         ///< [found] as path::RopePaths has it; empty with a model
+  std::vector<estimator::Witness> witness;  ///< [found] likewise
   int crossings = 0;               ///< between true ropes that are right,
   int crossings_found = 0;         ///< of these those that are told of,
   int crossings_right = 0;         ///< and of these those with the right one above
@@ -36,9 +39,9 @@ struct RopesOutcome {
 
 /// How ropes are told apart.
 struct RopesRun {
-  int ropes = 0;               ///< as Config::ropes
-  bool labels = false;         ///< the true labels are given
-  Estimator* model = nullptr;  ///< null: paths and refined priors, without the model
+  int ropes = 0;                    ///< as Config::ropes
+  bool labels = false;              ///< the true labels are given
+  Estimator* model = nullptr;       ///< null: paths and refined priors, without the model
   field::Network* field = nullptr;  ///< without the model: what tells them apart beside the mask
 };
 

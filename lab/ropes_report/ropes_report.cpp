@@ -1,8 +1,10 @@
-// flowdlo_ropes_report: drawn scenes of several ropes, told apart and lifted, against their truth:
-// one Markdown table by kind and one by number; --overlays draws the scenes that are not right.
+// flowdlo_ropes_report: drawn or rendered scenes of several ropes, told apart and lifted, against
+// their truth: one Markdown table by kind and one by number; --overlays draws the scenes that are
+// not right.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <cstdio>
 #include <map>
@@ -16,6 +18,7 @@
 
 #include "estimator/device_choice.hpp"
 #include "field/network.hpp"
+#include "ropes_report/rendered_ropes.hpp"
 #include "ropes_report/ropes_outcome.hpp"
 #include "scene/setting.hpp"
 
@@ -31,6 +34,9 @@ struct Options {
   int least = 2;
   int most = 5;
   std::string kind;
+  std::string rendered = "training";
+  int rendered_scenes = 0;
+  std::uint64_t rendered_first = 0;
   bool labels = false;
   bool counted = false;
   std::string weights;
@@ -54,6 +60,41 @@ double percentile(std::vector<double> values, double share) {
   return values[std::min(at, values.size() - 1)];
 }
 
+using flowdlo::estimator::Witness;
+
+// A rope that was found: how clearly it was told apart, and whether it is right.
+struct Told {
+  Witness witness = Witness::kNone;
+  double lead = 0;
+  bool right = false;
+};
+
+// Most likely a and b of 1 / (1 + exp(-(a + b lead))), b no less than 0, by Newton's method with a
+// little weight on small ones.
+std::array<double, 2> fitted(const std::vector<Told>& all, Witness witness) {
+  constexpr double kRidge = 0.1;
+  double a = 0;
+  double b = 0;
+  for (int round = 0; round < 40; ++round) {
+    double ga = -kRidge * a, gb = -kRidge * b;
+    double haa = kRidge, hab = 0, hbb = kRidge;
+    for (const Told& told : all) {
+      if (told.witness != witness) continue;
+      const double p = 1 / (1 + std::exp(-(a + b * told.lead)));
+      const double off = (told.right ? 1.0 : 0.0) - p;
+      ga += off;
+      gb += off * told.lead;
+      haa += p * (1 - p);
+      hab += p * (1 - p) * told.lead;
+      hbb += p * (1 - p) * told.lead * told.lead;
+    }
+    const double determinant = haa * hbb - hab * hab;
+    a += (hbb * ga - hab * gb) / determinant;
+    b += (haa * gb - hab * ga) / determinant;
+  }
+  return {a, b};
+}
+
 struct Tally {
   int scenes = 0;
   int all_right = 0;
@@ -68,6 +109,7 @@ struct Tally {
   int wrong = 0;
   std::vector<double> index_cm, total_ms, field_ms;
   std::vector<std::pair<double, bool>> confidences;  // of each rope found, and whether it is right
+  std::vector<Told> told;
 
   void add(const RopesScene& scene, const RopesOutcome& outcome) {
     ++scenes;
@@ -81,6 +123,10 @@ struct Tally {
     for (std::size_t i = 0; i < outcome.confidence.size(); ++i) {
       const bool sure = outcome.confidence[i] >= 0.5;
       confidences.emplace_back(outcome.confidence[i], outcome.rope_right[i]);
+      if (i < outcome.lead.size()) {
+        const auto lead = static_cast<double>(outcome.lead[i]);
+        told.push_back({outcome.witness[i], lead, outcome.rope_right[i]});
+      }
       if (outcome.rope_right[i]) {
         trusted += sure ? 1 : 0;
       } else {
@@ -98,19 +144,32 @@ struct Tally {
     constexpr std::array kBounds{0.0, 0.25, 0.5, 0.75, 0.9, 0.97, 1.0};
     std::printf("\n| confidence | ropes | mean confidence | right |\n|---|---|---|---|\n");
     for (std::size_t b = 0; b + 1 < kBounds.size(); ++b) {
-      int ropes = 0;
+      int count = 0;
       int correct = 0;
       double sum = 0;
       for (const auto& [confidence, good] : confidences) {
         const bool last = b + 2 == kBounds.size();
         if (confidence < kBounds[b] || (confidence >= kBounds[b + 1] && !last)) continue;
-        ++ropes;
+        ++count;
         correct += good ? 1 : 0;
         sum += confidence;
       }
-      const int most = std::max(1, ropes);
-      std::printf("| %.2f to %.2f | %d | %.3f | %.1f %% |\n", kBounds[b], kBounds[b + 1], ropes,
+      const int most = std::max(1, count);
+      std::printf("| %.2f to %.2f | %d | %.3f | %.1f %% |\n", kBounds[b], kBounds[b + 1], count,
                   sum / most, 100.0 * correct / most);
+    }
+    std::printf("\n| second reading | ropes | right | odds: a + b lead |\n|---|---|---|---|\n");
+    for (const auto& [witness, name] : {std::pair{Witness::kNone, "none"},
+                                        {Witness::kAgrees, "agrees"},
+                                        {Witness::kDiffers, "differs"}}) {
+      const auto of = [&, wanted = witness](const Told& one) { return one.witness == wanted; };
+      const auto count = std::count_if(told.begin(), told.end(), of);
+      if (count == 0) continue;
+      const auto correct = std::count_if(told.begin(), told.end(),
+                                         [&](const Told& one) { return of(one) && one.right; });
+      const auto [a, b] = fitted(told, witness);
+      std::printf("| %s | %d | %.1f %% | %.2f %+.2f |\n", name, static_cast<int>(count),
+                  100.0 * static_cast<double>(correct) / static_cast<double>(count), a, b);
     }
     if (field_ms.empty()) return;
     std::printf("\nms of the strand field: median %.0f, 95 %% %.0f\n", percentile(field_ms, 0.5),
@@ -178,74 +237,138 @@ bool draw(const std::string& file, const RopesScene& scene, const RopesOutcome& 
   return cv::imwrite(file, picture);
 }
 
-int report(const Options& options) {
-  std::optional<flowdlo::Estimator> model;
-  std::optional<flowdlo::field::Network> network;
-  if (!options.field.empty() && options.weights.empty()) {
-    auto opened = network_of(options.field);
-    if (!opened) {
-      std::fprintf(stderr, "%s\n", opened.error().message.c_str());
-      return 2;
+using flowdlo::Result;
+namespace synth = flowdlo::synth;
+
+// What tells ropes apart and estimates them, for as many ropes as are wanted.
+class Answers {
+ public:
+  explicit Answers(const Options& options) : options_(options) {}
+
+  Result<RopesOutcome> of(const RopesScene& scene, int wanted) {
+    if (!options_.weights.empty() && (!model_ || wanted != made_for_)) {
+      flowdlo::Config config;
+      config.weights = options_.weights;
+      config.device = "cpu";
+      config.ropes = wanted;
+      config.field_weights = options_.field;
+      if (options_.field.empty()) config.field = flowdlo::FieldChoice::kOff;
+      auto made = flowdlo::Estimator::create(config);
+      if (!made) return made.error();
+      model_ = *std::move(made);
+      made_for_ = wanted;
     }
-    network = *std::move(opened);
+    if (!options_.field.empty() && options_.weights.empty() && !network_) {
+      auto opened = network_of(options_.field);
+      if (!opened) return opened.error();
+      network_ = *std::move(opened);
+    }
+    return flowdlo::lab::outcome_of(scene, {wanted, options_.labels, model_ ? &*model_ : nullptr,
+                                            network_ ? &*network_ : nullptr});
   }
-  std::map<int, Tally> by_number;
-  std::map<int, Tally> by_kind;
-  Tally total;
+
+ private:
+  const Options& options_;
+  std::optional<flowdlo::Estimator> model_;
+  int made_for_ = 0;
+  std::optional<flowdlo::field::Network> network_;
+};
+
+// All scenes of a run and what came of them.
+class Report {
+ public:
+  explicit Report(const Options& options) : options_(options), answers_(options) {}
+
+  // `name` also names the picture.
+  Result<void> add(const RopesScene& scene, const std::string& kind, const std::string& name) {
+    const auto ropes = static_cast<int>(scene.ropes.size());
+    const auto outcome = answers_.of(scene, options_.counted ? ropes : 0);
+    if (!outcome) return outcome.error();
+    for (Tally* tally : {&by_number_[ropes], &by_kind_[kind], &total_}) tally->add(scene, *outcome);
+    if (!outcome->all_right) {
+      std::fprintf(stderr, "  %s: %d of %d ropes right, %d found %s\n", name.c_str(),
+                   outcome->right, ropes, outcome->found, outcome->error.c_str());
+    }
+    if (options_.overlays.empty() || (outcome->all_right && !options_.all)) return {};
+    const std::string file = options_.overlays + "/" + name + ".png";
+    if (draw(file, scene, *outcome)) return {};
+    return flowdlo::Error{flowdlo::ErrorCode::kIo,
+                          file + ": cannot be written; name an existing folder"};
+  }
+
+  void print() const {
+    std::printf(
+        "index error of the right ropes in cm: mean / median / 95 %%; crossings of right ropes: "
+        "right "
+        "one above, told of, true ones\n"
+        "| scenes of | scenes | right number | wholly right | ropes right | index error | "
+        "crossings |"
+        " confidence >= 0.5, of the right | < 0.5, of the wrong | ms |\n"
+        "|---|---|---|---|---|---|---|---|---|---|\n");
+    for (const auto& [kind, tally] : by_kind_) tally.print(kind);
+    for (const auto& [ropes, tally] : by_number_) tally.print(std::to_string(ropes) + " ropes");
+    total_.print("all");
+    total_.print_calibration();
+  }
+
+ private:
+  const Options& options_;
+  Answers answers_;
+  std::map<int, Tally> by_number_;
+  std::map<std::string, Tally> by_kind_;
+  Tally total_;
+};
+
+Result<void> add_drawn(const Options& options, Report& report) {
   for (int k = 0; k < flowdlo::lab::kRopesKinds; ++k) {
     const auto kind = static_cast<RopesKind>(k);
-    if (!options.kind.empty() && name_of(kind) != options.kind) continue;
+    const std::string name(name_of(kind));
+    if (!options.kind.empty() && name != options.kind) continue;
     for (int ropes = options.least; ropes <= options.most; ++ropes) {
-      const int wanted = options.counted ? ropes : 0;
-      if (!options.weights.empty() && (!model || options.counted)) {
-        flowdlo::Config config;
-        config.weights = options.weights;
-        config.device = "cpu";
-        config.ropes = wanted;
-        config.field_weights = options.field;
-        if (options.field.empty()) config.field = flowdlo::FieldChoice::kOff;
-        auto made = flowdlo::Estimator::create(config);
-        if (!made) {
-          std::fprintf(stderr, "%s\n", made.error().message.c_str());
-          return 2;
-        }
-        model = *std::move(made);
-      }
       for (int i = 0; i < options.scenes; ++i) {
         const std::uint64_t seed = options.first + static_cast<std::uint64_t>(i);
-        const auto scene = flowdlo::lab::make_ropes(kind, ropes, seed);
-        const auto outcome = flowdlo::lab::outcome_of(
-            scene,
-            {wanted, options.labels, model ? &*model : nullptr, network ? &*network : nullptr});
-        for (Tally* tally : {&by_number[ropes], &by_kind[k], &total}) tally->add(scene, outcome);
-        const std::string name =
-            std::string(name_of(kind)) + "_" + std::to_string(ropes) + "_" + std::to_string(seed);
-        if (!outcome.all_right) {
-          std::fprintf(stderr, "  %s: %d of %d ropes right, %d found %s\n", name.c_str(),
-                       outcome.right, ropes, outcome.found, outcome.error.c_str());
-        }
-        if (options.overlays.empty() || (outcome.all_right && !options.all)) continue;
-        const std::string file = options.overlays + "/" + name + ".png";
-        if (!draw(file, scene, outcome)) {
-          std::fprintf(stderr, "%s: cannot be written; name an existing folder\n", file.c_str());
-          return 1;
-        }
+        const auto added =
+            report.add(flowdlo::lab::make_ropes(kind, ropes, seed), name,
+                       name + "_" + std::to_string(ropes) + "_" + std::to_string(seed));
+        if (!added) return added;
       }
     }
   }
-  std::printf(
-      "index error of the right ropes in cm: mean / median / 95 %%; crossings of right ropes: "
-      "right "
-      "one above, told of, true ones\n"
-      "| scenes of | scenes | right number | wholly right | ropes right | index error | crossings |"
-      " confidence >= 0.5, of the right | < 0.5, of the wrong | ms |\n"
-      "|---|---|---|---|---|---|---|---|---|---|\n");
-  for (const auto& [k, tally] : by_kind) {
-    tally.print(std::string(name_of(static_cast<RopesKind>(k))));
+  return {};
+}
+
+Result<void> add_rendered(const Options& options, Report& report) {
+  int passed_over = 0;
+  for (int i = 0; i < options.rendered_scenes; ++i) {
+    const std::uint64_t index = options.rendered_first + static_cast<std::uint64_t>(i);
+    const auto made = flowdlo::lab::rendered_ropes(*synth::part_of(options.rendered), index);
+    if (!made) return made.error();
+    if (!*made) {
+      ++passed_over;
+      continue;
+    }
+    const auto& [scenario, scene] = **made;
+    const auto ropes = static_cast<int>(scene.ropes.size());
+    if (ropes < options.least || ropes > options.most) continue;
+    if (!options.kind.empty() && scenario != options.kind) continue;
+    const auto added = report.add(scene, scenario, scenario + "_" + std::to_string(index));
+    if (!added) return added;
   }
-  for (const auto& [ropes, tally] : by_number) tally.print(std::to_string(ropes) + " ropes");
-  total.print("all");
-  total.print_calibration();
+  if (options.rendered_scenes == 0) return {};
+  std::fprintf(stderr, "passed over, since a rope leaves the image and comes back: %d\n",
+               passed_over);
+  return {};
+}
+
+int run(const Options& options) {
+  Report report(options);
+  auto done = add_drawn(options, report);
+  if (done) done = add_rendered(options, report);
+  if (!done) {
+    std::fprintf(stderr, "%s\n", done.error().message.c_str());
+    return 2;
+  }
+  report.print();
   return 0;
 }
 
@@ -254,10 +377,10 @@ int report(const Options& options) {
 int main(int count, char** values) {
   Options options;
   CLI::App app{"Several ropes in one frame, on drawn scenes, against their truth"};
-  app.add_option("--scenes", options.scenes, "Of each kind and number")
+  app.add_option("--scenes", options.scenes, "Drawn ones, of each kind and number")
       ->capture_default_str()
-      ->check(CLI::Range(1, 1000000));
-  app.add_option("--first", options.first, "Seed of the first scene of each")
+      ->check(CLI::Range(0, 1000000));
+  app.add_option("--first", options.first, "Seed of the first drawn scene of each")
       ->capture_default_str();
   app.add_option("--least", options.least, "Fewest ropes of a scene")
       ->capture_default_str()
@@ -265,12 +388,25 @@ int main(int count, char** values) {
   app.add_option("--most", options.most, "Most ropes of a scene")
       ->capture_default_str()
       ->check(CLI::Range(2, 9));
-  app.add_option("--kind", options.kind, "Of this kind only")
+  app.add_option("--kind", options.kind, "Of this kind, or rendered scenario, only")
       ->check(CLI::Validator(
           [](const std::string& name) {
-            return flowdlo::lab::ropes_kind_of(name) ? std::string() : "no kind of scene: " + name;
+            const auto rendered = synth::scenarios(synth::Split::kSeveral);
+            const bool known = flowdlo::lab::ropes_kind_of(name) ||
+                               std::find(rendered.begin(), rendered.end(), name) != rendered.end();
+            return known ? std::string() : "no kind of scene: " + name;
           },
           "KIND"));
+  app.add_option("--rendered", options.rendered,
+                 "Part of flowdlo synth's several split that rendered scenes come from")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"training", "validation"}))
+      ->type_name("PART");
+  app.add_option("--rendered-scenes", options.rendered_scenes, "How many of them")
+      ->capture_default_str()
+      ->check(CLI::Range(0, 1000000));
+  app.add_option("--rendered-first", options.rendered_first, "Index of the first of them")
+      ->capture_default_str();
   app.add_flag("--labels", options.labels, "Frame::instances are given");
   app.add_flag("--counted", options.counted, "The number of ropes is given");
   app.add_option("--weights", options.weights, "The whole estimator with this model [priors alone]")
@@ -285,5 +421,5 @@ int main(int count, char** values) {
       ->type_name("DIR");
   app.add_flag("--all", options.all, "Draw those that are right as well");
   CLI11_PARSE(app, count, values);
-  return report(options);
+  return run(options);
 }

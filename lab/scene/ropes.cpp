@@ -167,7 +167,6 @@ class Maker {
   std::optional<RopesScene> run() {
     if (!lay_all()) return std::nullopt;
     RopesScene scene;
-    scene.kind = kind_;
     choose_camera(random_, scene.image);
     std::vector<Body> bodies = raise_all();
     if (!apart(bodies)) return std::nullopt;

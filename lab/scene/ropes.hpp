@@ -35,7 +35,6 @@ struct SeenRope {
 };
 
 struct RopesScene {
-  RopesKind kind = RopesKind::kCrossing;
   Image image;  ///< `instances` of it are the true labels, from 1 in the order of `ropes`
   std::vector<SeenRope> ropes;
 

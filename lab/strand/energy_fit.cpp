@@ -1,6 +1,6 @@
-// flowdlo_energy_fit: the weights of the path's energy (engine/path/energy.hpp), from `wide` scenes
-// with truth. At each end of a strand that lies on the rope, the end that the rope really goes on
-// with, or that it stops there, is to be likelier than all other choices.
+// flowdlo_energy_fit: the weights of the path's energy (engine/path/energy.hpp), from scenes with
+// truth. Each end of a strand might have gone on with another one, or stopped, and the ends that
+// this frees would stop: what the rope really does is to be likelier than every such change.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -11,14 +11,11 @@
 #include <numeric>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
-#include "estimator/conditions.hpp"
 #include "field/axes.hpp"
 #include "field/strand_field.hpp"
-#include "flowdlo/centerline.hpp"
-#include "geometry/camera.hpp"
-#include "geometry/polyline.hpp"
 #include "geometry/quantile.hpp"
 #include "path/links.hpp"
 #include "path/midline.hpp"
@@ -35,15 +32,18 @@ namespace path = flowdlo::path;
 namespace synth = flowdlo::synth;
 using Eigen::Vector2f;
 
-constexpr std::size_t kTerms = path::LinkTerms{}.size() + path::StopTerms{}.size();
+// Those of a link and of a stop. Where there is one rope,
+// it has two ends whatever they cost: their start is a term of its own, which means nothing.
+constexpr std::size_t kStartOfOne = path::LinkTerms{}.size() + path::StopTerms{}.size();
+constexpr std::size_t kTerms = kStartOfOne + 1;
 constexpr float kBesideWidths = 0.5F;  // a strand's points lie so near the truth,
 constexpr float kSameWay = 0.8F;       // cosine, and run along it,
 constexpr float kLeastMatched = 0.6F;  // most of them
-constexpr std::size_t kMostStrands = 40;
+constexpr std::size_t kMostStrands = 60;
 
 using Option = std::array<double, kTerms>;
 
-/// What may happen at one end of a strand; the first option is what does.
+/// What may happen at one end of a strand, less what does, which is the first option.
 struct Choice {
   std::vector<Option> options;
 };
@@ -53,9 +53,17 @@ struct Outcome {
   std::vector<Choice> choices;
 };
 
+/// A rope's axis in pixels of the region, about one apart.
+struct Truth {
+  std::vector<Vector2f> line;
+  std::vector<bool> inside;  ///< the image
+};
+
 /// Where along the truth a strand lies, in its points; `last` < `first` where it runs backwards.
 struct Stay {
+  std::size_t rope = 0;
   int strand = 0;
+  std::size_t matched = 0;  ///< of its points
   int first = 0;
   int last = 0;
   [[nodiscard]] int low() const { return std::min(first, last); }
@@ -92,6 +100,7 @@ std::optional<Stay> stay_of(const std::vector<Vector2f>& points, const std::vect
   if (places.size() < 4) return {};
   const auto quarter = static_cast<std::ptrdiff_t>(std::max<std::size_t>(1, places.size() / 4));
   Stay stay;
+  stay.matched = places.size();
   std::vector<int> begin(places.begin(), places.begin() + quarter);
   std::vector<int> end(places.end() - quarter, places.end());
   stay.first = flowdlo::geometry::median_of(begin);
@@ -100,88 +109,192 @@ std::optional<Stay> stay_of(const std::vector<Vector2f>& points, const std::vect
   return stay;
 }
 
-Option link_option(const path::LinkTerms& terms) {
-  Option option{};
-  std::copy(terms.begin(), terms.end(), option.begin());
-  return option;
-}
-
-Option stop_option(const path::StopTerms& terms) {
-  Option option{};
-  std::copy(terms.begin(), terms.end(), option.begin() + path::kLinkTerms);
-  return option;
-}
-
-/// The truth in pixels of the region, about one apart.
-std::vector<Vector2f> truth_in(const path::Region& region, const flowdlo::Frame& frame,
-                               const flowdlo::Centerline& truth) {
-  std::vector<Vector2f> nodes;
-  for (const flowdlo::Point3& node : truth) {
-    nodes.push_back(flowdlo::geometry::project(frame.intrinsics, node) - path::offset_of(region));
+std::vector<Truth> truths_of(const synth::SyntheticFrame& scene, const path::Region& region) {
+  std::vector<Truth> truths;
+  for (const auto& strand : flowdlo::strand::strands_of(scene)) {
+    Truth& truth = truths.emplace_back();
+    for (std::size_t i = 0; i < strand.points.size(); i += 2) {  // half a pixel apart
+      const auto& p = strand.points[i];
+      truth.line.emplace_back(Vector2f(p.u, p.v) - path::offset_of(region));
+      truth.inside.push_back(p.u >= 0 && p.v >= 0 &&
+                             p.u <= static_cast<float>(scene.folder.width - 1) &&
+                             p.v <= static_cast<float>(scene.folder.height - 1));
+    }
   }
-  const float length = path::length_of(nodes);
-  return flowdlo::geometry::resample(nodes, std::max(64, static_cast<int>(length)));
+  return truths;
 }
 
-std::vector<Choice> choices_of(const path::Strands& strands, const path::Region& region,
-                               const flowdlo::Frame& frame, const flowdlo::Centerline& truth) {
-  std::vector<Choice> choices;
-  if (strands.list.size() > kMostStrands) return choices;
-  const auto line = truth_in(region, frame, truth);
+/// Where each strand lies on its rope, by rope and along it. Empty where two lie on one stretch of
+/// a rope: which of them is right cannot be told.
+std::vector<Stay> stays_of(const path::Strands& strands, const std::vector<Truth>& truths) {
   std::vector<Stay> stays;
   for (std::size_t s = 0; s < strands.list.size(); ++s) {
     if (strands.list[s].ring) continue;
-    auto stay = stay_of(strands.list[s].points_px, line, strands.width_px);
-    if (!stay) continue;
-    stay->strand = static_cast<int>(s);
-    stays.push_back(*stay);
+    std::optional<Stay> best;
+    for (std::size_t r = 0; r < truths.size(); ++r) {
+      auto stay = stay_of(strands.list[s].points_px, truths[r].line, strands.width_px);
+      if (!stay || (best && stay->matched <= best->matched)) continue;
+      stay->rope = r;
+      stay->strand = static_cast<int>(s);
+      best = stay;
+    }
+    if (best) stays.push_back(*best);
   }
-  std::sort(stays.begin(), stays.end(),
-            [](const Stay& a, const Stay& b) { return a.low() < b.low(); });
-  for (std::size_t i = 1; i < stays.size(); ++i) {  // two lines of one strand tell nothing
+  std::sort(stays.begin(), stays.end(), [](const Stay& a, const Stay& b) {
+    return a.rope != b.rope ? a.rope < b.rope : a.low() < b.low();
+  });
+  for (std::size_t i = 1; i < stays.size(); ++i) {
+    if (stays[i].rope != stays[i - 1].rope) continue;
     const int shared = stays[i - 1].high() - stays[i].low();
     const int shorter =
         std::min(stays[i - 1].high() - stays[i - 1].low(), stays[i].high() - stays[i].low());
-    if (shared > 0 && 2 * shared > shorter) return choices;
+    if (shared > 0 && 2 * shared > shorter) return {};
   }
-  const path::Cover cover(region, frame, strands.width_px, strands.seen);
-  for (std::size_t i = 0; i < stays.size(); ++i) {
-    for (const bool higher : {false, true}) {
-      const int end = stays[i].end_at(higher);
-      const bool stops = higher ? i + 1 == stays.size() : i == 0;
-      const int right = stops ? -1 : stays[higher ? i + 1 : i - 1].end_at(!higher);
+  return stays;
+}
+
+constexpr int kStops = -1;
+constexpr int kUnknown = -2;  // a strand that lies on no rope is left out
+
+/// [2 * strands] the end that the rope really goes on with from each.
+std::vector<int> partners_of(const path::Strands& strands, const std::vector<Stay>& stays,
+                             const std::vector<Truth>& truths) {
+  std::vector<int> partners(2 * strands.list.size(), kUnknown);
+  for (const Stay& stay : stays) {
+    partners[static_cast<std::size_t>(stay.end_at(false))] = kStops;
+    partners[static_cast<std::size_t>(stay.end_at(true))] = kStops;
+  }
+  for (std::size_t i = 1; i < stays.size(); ++i) {
+    if (stays[i].rope != stays[i - 1].rope) continue;
+    const auto& inside = truths[stays[i].rope].inside;
+    const auto from = inside.begin() + std::min(stays[i - 1].high(), stays[i].low());
+    const auto to = inside.begin() + std::max(stays[i - 1].high(), stays[i].low());
+    if (std::find(from, to, false) != to) continue;  // it comes back as another rope
+    const int a = stays[i - 1].end_at(true);
+    const int b = stays[i].end_at(false);
+    partners[static_cast<std::size_t>(a)] = b;
+    partners[static_cast<std::size_t>(b)] = a;
+  }
+  return partners;
+}
+
+/// Options at the ends of strands.
+class Changes {
+ public:
+  Changes(const path::Strands& strands, const path::Region& region, const flowdlo::Frame& frame,
+          std::vector<int> partners, bool one_rope)
+      : strands_(strands),
+        cover_(region, frame, strands.width_px, strands.seen),
+        partners_(std::move(partners)),
+        one_rope_(one_rope) {}
+
+  std::vector<Choice> all() const {
+    std::vector<Choice> choices;
+    const auto ends = static_cast<int>(partners_.size());
+    for (int end = 0; end < ends; ++end) {
+      if (partner(end) == kUnknown) continue;
       Choice choice;
-      const Option stop = stop_option(path::stop_terms(strands.end(end)));
-      if (stops) choice.options.push_back(stop);
-      if (!stops) {
-        choice.options.push_back(link_option(path::link_between(end, right, strands, cover).terms));
-        choice.options.push_back(stop);
-      }
-      for (int other = 0; other < static_cast<int>(2 * strands.list.size()); ++other) {
-        if (other / 2 == end / 2 || other == right || strands.list[other / 2].ring) continue;
-        choice.options.push_back(link_option(path::link_between(end, other, strands, cover).terms));
+      choice.options.emplace_back();
+      if (partner(end) >= 0) choice.options.push_back(freed(end));
+      for (int other = 0; other < ends; ++other) {
+        if (other == end || other == partner(end) || strands_.list[other / 2].ring) continue;
+        if (other / 2 == end / 2 && one_rope_) continue;
+        choice.options.push_back(joined(end, other));
       }
       if (choice.options.size() > 1) choices.push_back(std::move(choice));
     }
+    return choices;
   }
-  return choices;
+
+ private:
+  [[nodiscard]] int partner(int end) const { return partners_[static_cast<std::size_t>(end)]; }
+
+  void add_stop(int end, double sign, Option& option) const {
+    const auto terms = path::stop_terms(strands_.end(end));
+    for (std::size_t i = 0; i < terms.size(); ++i) {
+      const bool start = i == path::kStopStart && one_rope_;
+      option[start ? kStartOfOne : path::kLinkTerms + i] += sign * static_cast<double>(terms[i]);
+    }
+  }
+  void add_link(int from, int to, double sign, Option& option) const {
+    const auto terms = path::link_between(from, to, strands_, cover_).terms;
+    for (std::size_t i = 0; i < terms.size(); ++i)
+      option[i] += sign * static_cast<double>(terms[i]);
+  }
+
+  /// `end` has lost what it had, and `lost` stops where it had something.
+  void lose(int end, Option& option) const {
+    const int had = partner(end);
+    if (had == kStops) add_stop(end, -1, option);
+    if (had < 0) return;
+    add_link(end, had, -1, option);
+    add_stop(had, 1, option);
+  }
+
+  [[nodiscard]] Option freed(int end) const {
+    Option option{};
+    lose(end, option);
+    add_stop(end, 1, option);
+    return option;
+  }
+
+  [[nodiscard]] Option joined(int end, int other) const {
+    Option option{};
+    lose(end, option);
+    add_link(end, other, 1, option);
+    if (partner(other) != kUnknown) {
+      lose(other, option);
+      return option;
+    }
+    add_stop(other ^ 1, 1, option);
+    return option;
+  }
+
+  const path::Strands& strands_;
+  path::Cover cover_;
+  std::vector<int> partners_;
+  bool one_rope_;
+};
+
+/// As the mask's own paths have it.
+flowdlo::Result<float> rope_width_px(const flowdlo::Frame& frame, bool one_rope) {
+  if (one_rope) {
+    const auto paths = path::trace(frame, {});
+    if (!paths) return paths.error();
+    return paths->rope_width_px;
+  }
+  const auto paths = path::trace_ropes(frame, 0);
+  if (!paths) return paths.error();
+  return paths->rope_width_px;
 }
 
-flowdlo::Result<Outcome> measure(const std::string& part, std::uint64_t index,
+flowdlo::Result<Outcome> measure(synth::Split split, const std::string& part, std::uint64_t index,
                                  field::Network& network) {
-  auto scene =
-      synth::make_frame(synth::Split::kWide, *synth::part_of(part), 0, index, synth::Render{});
+  synth::Render render;
+  render.dense = true;
+  auto scene = synth::make_frame(split, *synth::part_of(part), 0, index, render);
   if (!scene) return scene.error();
-  const flowdlo::Frame frame = scene->frame();
-  const auto paths = path::trace(frame, {});
-  if (!paths) return paths.error();
-  const auto seen = field::see(frame, paths->rope_width_px, network);
+  flowdlo::Frame frame = scene->frame();
+  frame.instances = {};
+  const bool one_rope = scene->ropes.size() == 1;
+  Outcome outcome{index, {}};
+  const bool ring = std::any_of(scene->ropes.begin(), scene->ropes.end(),
+                                [](const synth::TrueRope& rope) { return rope.closed; });
+  if (ring) return outcome;  // it begins nowhere
+  const auto width_px = rope_width_px(frame, one_rope);
+  if (!width_px) return width_px.error();
+  const auto seen = field::see(frame, *width_px, network);
   if (!seen) return seen.error();
   const auto axes = field::axes(*seen);
-  const auto region = path::clean(frame);
+  const auto region = path::clean(frame, one_rope ? 1 : 0);
   if (!region) return region.error();
-  return Outcome{
-      index, choices_of(path::strands_of(frame, axes, *region), *region, frame, scene->truth())};
+  const auto strands = path::strands_of(frame, axes, *region);
+  if (strands.list.size() > kMostStrands) return outcome;
+  const auto truths = truths_of(*scene, *region);
+  const auto stays = stays_of(strands, truths);
+  outcome.choices =
+      Changes(strands, *region, frame, partners_of(strands, stays, truths), one_rope).all();
+  return outcome;
 }
 
 using Weights = Eigen::Matrix<double, kTerms, 1>;
@@ -270,32 +383,43 @@ Quality quality_of(const std::vector<Choice>& choices, const Weights& weights) {
 }
 
 const std::array<const char*, kTerms> kNames{
-    "link: long", "bend", "bend of a stump", "open", "unshown", "stop: start", "unseen", "border"};
+    "link: long", "bend",  "bend of a stump", "open",   "unshown",
+    "color",      "depth", "stop: start",     "unseen", "start of one"};
 
 }  // namespace
 
 int main(int argc, char** argv) {
   flowdlo::strand::SceneRange range;
+  std::uint64_t several = 0;
   double ridge = 2;
+  std::string without;
   CLI::App app{"The weights of the path's energy, fitted to scenes with truth"};
   range.part = "training";
   flowdlo::strand::add_options(app, range);
+  app.add_option("--several", several, "So many scenes of several ropes as well, from the same on");
   app.add_option("--ridge", ridge, "Half the weight of the weights' squares");
+  app.add_option("--without", without, "Terms that are not used, by their numbers, as 5,8");
   CLI11_PARSE(app, argc, argv);
   const auto weights = flowdlo::strand::weights_of(range);
   if (!weights) return 1;
-  const auto outcomes = flowdlo::strand::over_scenes<Outcome>(
-      range, weights, [&](std::uint64_t index, field::Network& network) {
-        return measure(range.part, index, network);
-      });
   std::vector<Choice> fit;
   std::vector<Choice> held;
-  for (const Outcome& outcome : outcomes) {
-    auto& part = outcome.index % 4 == 0 ? held : fit;
-    part.insert(part.end(), outcome.choices.begin(), outcome.choices.end());
+  for (const auto split : {synth::Split::kWide, synth::Split::kSeveral}) {
+    if (split == synth::Split::kSeveral) range.scenes = several;
+    const auto outcomes = flowdlo::strand::over_scenes<Outcome>(
+        range, weights, [&](std::uint64_t index, field::Network& network) {
+          return measure(split, range.part, index, network);
+        });
+    for (const Outcome& outcome : outcomes) {
+      auto& part = outcome.index % 4 == 0 ? held : fit;
+      part.insert(part.end(), outcome.choices.begin(), outcome.choices.end());
+    }
   }
   std::array<bool, kTerms> free{};
   free.fill(true);
+  for (std::size_t i = 0; i < kTerms; ++i) {
+    if (("," + without + ",").find(fmt::format(",{},", i)) != std::string::npos) free[i] = false;
+  }
   const Weights all = fitted(fit, ridge, free);
   const Quality best = quality_of(held, all);
   Weights now = Weights::Zero();
@@ -312,9 +436,9 @@ int main(int argc, char** argv) {
   fmt::print("| term | weight | without it | right, % |\n|---|---|---|---|\n");
   for (std::size_t i = 0; i < kTerms; ++i) {
     if (!free[i]) continue;
-    auto without = free;
-    without[i] = false;
-    const Quality quality = quality_of(held, fitted(fit, ridge, without));
+    auto others = free;
+    others[i] = false;
+    const Quality quality = quality_of(held, fitted(fit, ridge, others));
     fmt::print("| {} | {:.3f} | {:+.4f} | {:.2f} |\n", kNames[i], all[static_cast<Eigen::Index>(i)],
                quality.unlikely - best.unlikely, 100 * quality.right);
   }

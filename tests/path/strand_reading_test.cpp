@@ -151,37 +151,6 @@ TEST(StrandReading, LinesThatChangedOverWhereARopeCrossesItselfAreJoinedAnew) {
   EXPECT_GT(third.y(), 130) << "the loop is entered along its lower side";
 }
 
-TEST(StrandReading, OfSeveralRopesALinkBelowAnotherOneCostsWhatItsBendDoes) {
-  Seen seen({straight_axis({60, 120}, {260, 120}), straight_axis({160, 30}, {160, 210})});
-  const auto region = clean(seen.canvas.frame());
-  ASSERT_TRUE(region) << region.error().message;
-  std::vector<Stretch> stretches;
-  const auto add = [&](const Eigen::Vector2f& from, const Eigen::Vector2f& to) {
-    const Eigen::Vector2f offset(static_cast<float>(region->offset_px.x),
-                                 static_cast<float>(region->offset_px.y));
-    Stretch& stretch = stretches.emplace_back();
-    const int count = static_cast<int>((to - from).norm());
-    for (int i = 0; i <= count; ++i) {
-      stretch.points_px.emplace_back(
-          from - offset + (to - from) * static_cast<float>(i) / static_cast<float>(count));
-    }
-  };
-  add({60, 120}, {150, 120});   // ends 0 and 1: left of what crosses above,
-  add({170, 120}, {260, 120});  // 2 and 3: right of it,
-  add({160, 30}, {160, 210});   // and that
-  const Frame frame = seen.canvas.frame();
-  const auto bonds = make_bonds(make_strands(stretches, 8, *region, frame), *region, frame, true);
-  const auto cost = [&](std::size_t from, int to) {
-    for (const Bond& bond : bonds[from]) {
-      if (bond.to == to) return bond.cost;
-    }
-    return 1e9F;
-  };
-  EXPECT_LT(cost(1, 2), 0.2F);
-  EXPECT_GT(cost(1, 3), 2);  // back over its own other end
-  EXPECT_EQ(cost(1, 2), cost(2, 1));
-}
-
 /// A rope 60 px wide through a frame too large to be traced as it is, and its axis.
 struct LargeFrame {
   static constexpr float kWidth_px = 60;
