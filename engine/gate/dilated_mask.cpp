@@ -2,6 +2,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <iterator>
+#include <span>
 #include <vector>
 
 #include "gate/gate.hpp"
@@ -16,33 +19,13 @@ constexpr float kMinDepth_m = 1e-6F;          // Sec. 3.2; nearer nodes have no 
 constexpr double kSamePlace_px = 1e-3;        // a sample this close to the next node is that node
 constexpr double kMaxSegment_px = 1e9;        // longer ones have no sample of known position
 
-/// Along one row, how far each pixel is from the nearest one of the mask, at most `most`; false
-/// where the row has none.
-bool measure_row(const std::uint8_t* row, std::uint16_t most, std::vector<std::uint16_t>& away) {
-  const std::size_t width = away.size();
-  bool any = false;
-  std::uint16_t distance = most;
-  for (std::size_t u = 0; u < width; ++u) {
-    const bool masked = row[u] > kMaskThreshold;
-    any = any || masked;
-    distance = masked ? std::uint16_t{0} : static_cast<std::uint16_t>(distance + (distance < most));
-    away[u] = distance;
-  }
-  if (!any) return false;
-  distance = most;
-  for (std::size_t u = width; u-- > 0;) {
-    distance = std::min(away[u], static_cast<std::uint16_t>(distance + (distance < most)));
-    away[u] = distance;
-  }
-  return true;
-}
-
-/// Sets the pixels of a row that are at most `reach` away. Without branches: the work is the same
-/// for every mask.
-void cover(const std::vector<std::uint16_t>& away, std::uint16_t reach, std::uint8_t* row) {
-  for (std::size_t u = 0; u < away.size(); ++u) {
-    row[u] = static_cast<std::uint8_t>(row[u] | (away[u] <= reach ? 1 : 0));
-  }
+/// Whether a pixel of a row is of the mask. Values above 127 are those whose highest bit is set, so
+/// that the row's union tells, in many pixels at a time.
+static_assert(kMaskThreshold == 127);
+bool any_masked(std::span<const std::uint8_t> row) {
+  std::uint8_t bits = 0;
+  for (const std::uint8_t value : row) bits |= value;
+  return bits > kMaskThreshold;
 }
 
 /// Hits and number of the one-pixel samples of a part of the curve.
@@ -51,19 +34,39 @@ struct Tally {
   double samples = 0;
 };
 
-/// What one segment is compared with: the dilated mask of an image.
+/// What one segment is compared with: the dilated mask of an image, looked at around single pixels,
+/// since curves pass few of them.
 struct Coverage {
   int width;
   int height;
-  const std::vector<std::uint8_t>& covered;
+  std::span<const std::uint8_t> mask;   // [height, width]
+  const std::vector<int>& half_widths;  // of the disc, by rows from its centre
 
   /// Looked up at the nearest pixel; outside the image there is nothing.
   [[nodiscard]] bool at(const Eigen::Vector2d& position_px) const {
     const double u = std::floor(position_px.x() + 0.5);
     const double v = std::floor(position_px.y() + 0.5);
     if (!(u >= 0 && v >= 0 && u < width && v < height)) return false;
-    return covered[static_cast<std::size_t>(v) * static_cast<std::size_t>(width) +
-                   static_cast<std::size_t>(u)] != 0;
+    return disc_meets_mask(static_cast<int>(u), static_cast<int>(v));
+  }
+
+  /// From the centre outwards: most of what is looked up lies on the mask.
+  [[nodiscard]] bool disc_meets_mask(int u, int v) const {
+    for (int away = 0; away < std::ssize(half_widths); ++away) {
+      const int half_width = half_widths[static_cast<std::size_t>(away)];
+      if (row_meets_mask(v - away, u, half_width)) return true;
+      if (row_meets_mask(v + away, u, half_width)) return true;
+    }
+    return false;
+  }
+
+  [[nodiscard]] bool row_meets_mask(int v, int u, int half_width) const {
+    if (v < 0 || v >= height) return false;
+    const int first = std::max(0, u - half_width);
+    const int last = std::min(width - 1, u + half_width);
+    const auto row = static_cast<std::size_t>(v) * static_cast<std::size_t>(width);
+    return any_masked(mask.subspan(row + static_cast<std::size_t>(first),
+                                   static_cast<std::size_t>(last - first + 1)));
   }
 
   /// A segment that has no finite projection misses as often as the image's diagonal is long.
@@ -110,28 +113,17 @@ Eigen::Vector2d project(const Intrinsics& camera, const Point3& node) {
 }  // namespace
 
 DilatedMask::DilatedMask(const Frame& frame, const Limits& limits)
-    : width_(frame.width),
-      height_(frame.height),
-      covered_(static_cast<std::size_t>(frame.width) * static_cast<std::size_t>(frame.height), 0) {
+    : width_(frame.width), height_(frame.height), mask_(frame.mask) {
   const float radius_px = limits.mask_dilation_px * geometry::pixel_scale(width_);
-  const int reach = static_cast<int>(radius_px);
-  const auto stride = static_cast<std::size_t>(width_);
-  std::vector<std::uint16_t> away(stride);
-  for (int v = 0; v < height_; ++v) {
-    const std::uint8_t* const masked = frame.mask.data() + static_cast<std::size_t>(v) * stride;
-    if (!measure_row(masked, static_cast<std::uint16_t>(reach + 1), away)) continue;
-    for (int row = std::max(0, v - reach); row <= std::min(height_ - 1, v + reach); ++row) {
-      const auto dv = static_cast<float>(row - v);
-      const auto half_width =
-          static_cast<std::uint16_t>(std::sqrt(radius_px * radius_px - dv * dv));
-      cover(away, half_width, &covered_[static_cast<std::size_t>(row) * stride]);
-    }
+  for (int away = 0; away <= static_cast<int>(radius_px); ++away) {
+    const auto away_px = static_cast<float>(away);
+    half_widths_.push_back(static_cast<int>(std::sqrt(radius_px * radius_px - away_px * away_px)));
   }
 }
 
 float DilatedMask::agreement(const Centerline& nodes, const Intrinsics& camera) const {
   if (!geometry::all_finite(nodes)) return 0;
-  const Coverage coverage{width_, height_, covered_};
+  const Coverage coverage{width_, height_, mask_, half_widths_};
   Tally total;
   for (std::size_t i = 0; i + 1 < nodes.size(); ++i) {
     Tally part{0, coverage.diagonal_px()};

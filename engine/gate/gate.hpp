@@ -19,7 +19,8 @@ struct Limits {
   float mask_dilation_px = 4.0F;       ///< Sec. 3.6, of a 640-px-wide image
 };
 
-/// The mask dilated by a disc of mask_dilation_px * width / 640 pixels.
+/// The mask dilated by a disc of mask_dilation_px * width / 640 pixels. A view of the frame's mask,
+/// which has to outlive it.
 class DilatedMask {
  public:
   DilatedMask(const Frame& frame, const Limits& limits = {});
@@ -34,7 +35,8 @@ class DilatedMask {
  private:
   int width_;
   int height_;
-  std::vector<std::uint8_t> covered_;  ///< [height, width]
+  std::span<const std::uint8_t> mask_;  ///< [height, width]
+  std::vector<int> half_widths_;        ///< px, of the disc, by rows from its centre
 };
 
 struct Verdict {

@@ -17,6 +17,8 @@
 namespace flowdlo::weights {
 namespace {
 
+static_assert(kDataAlignment <= FLATBUFFERS_MAX_ALIGNMENT);
+
 fdw::Switch switched(bool value) { return value ? fdw::Switch::on : fdw::Switch::off; }
 
 /// The schema's enumerations begin one higher than ours: their zero is "unset".

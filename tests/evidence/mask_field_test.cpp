@@ -6,7 +6,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <opencv2/imgproc.hpp>
 #include <vector>
+
+#include "random/philox.hpp"
 
 namespace flowdlo::evidence {
 namespace {
@@ -86,6 +89,33 @@ TEST(MaskField, SmoothsAsIfNothingLayOutsideTheImage) {  // channel 1
   for (int i = -10; i <= 10; ++i) sum += std::exp(-0.5 * i * i / 6.25);
   EXPECT_NEAR(texel(field, 40, 40)[1], 1, 1e-5);
   EXPECT_NEAR(texel(field, 40, 0)[1], (sum + 1) / (2 * sum), 1e-5);
+}
+
+// Only rows near the mask are smoothed, and even sides are averaged by counting.
+TEST(MaskField, HasTheBitsOfFiltersOverTheWholeImage) {  // channels 0 and 1
+  for (const int top : {0, 3, 60, 150}) {
+    Picture picture{210, 160};
+    for (int i = 0; i < 10 * 210; ++i) {
+      if (random::philox(5, static_cast<std::uint64_t>(i))[0] % 3 == 0) {
+        picture.set(i % 210, top + i / 210);
+      }
+    }
+    const MaskField field = mask_field(picture.frame());
+
+    cv::Mat1f mask;
+    cv::Mat1b(160, 210, picture.mask.data()).convertTo(mask, CV_32F);
+    cv::min(mask, 1.0, mask);
+    cv::Mat1f average;
+    cv::resize(mask, average, {105, 80}, 0, 0, cv::INTER_AREA);
+    cv::Mat1f smooth;
+    cv::GaussianBlur(average, smooth, {}, 2.5, 2.5, cv::BORDER_CONSTANT);
+    for (int v = 0; v < field.height; ++v) {
+      for (int u = 0; u < field.width; ++u) {
+        ASSERT_EQ(texel(field, u, v)[0], average(v, u)) << top << ": " << u << ", " << v;
+        ASSERT_EQ(texel(field, u, v)[1], smooth(v, u)) << top << ": " << u << ", " << v;
+      }
+    }
+  }
 }
 
 TEST(MaskField, PointsFromEachPixelToTheNearestMaskPixel) {  // channels 2 and 3

@@ -11,6 +11,16 @@ namespace {
 
 using Pixels = std::vector<std::uint8_t>;
 
+/// [height, width] index v * width + u of what is nearest to each pixel; empty when nothing is set.
+std::vector<std::int32_t> nearest_set_pixel(const Pixels& set, int width, int height) {
+  NearestPixels rows(set, width, height);
+  std::vector<std::int32_t> nearest;
+  for (int v = 0; v < height; ++v) {
+    for (const Pixel& pixel : rows.of_row(v)) nearest.push_back(pixel.v * width + pixel.u);
+  }
+  return nearest;
+}
+
 std::vector<std::int32_t> search_everywhere(const Pixels& set, int width, int height) {
   std::vector<std::int32_t> nearest;
   for (int pixel = 0; pixel < width * height; ++pixel) {
@@ -89,6 +99,16 @@ TEST(NearestPixel, IsExactOnALatticeFullOfTies) {
     for (std::size_t u = 0; u < 31; u += 6) set[v * 31 + u] = 1;
   }
   EXPECT_EQ(nearest_set_pixel(set, 31, 31), search_everywhere(set, 31, 31));
+}
+
+// Rows whose own set pixels stand at either border, at both, or alone.
+TEST(NearestPixel, IsExactInEveryStretchOfARow) {
+  for (int row = 0; row < 1 << 6; ++row) {
+    Pixels set(6 * 3, 0);
+    for (int u = 0; u < 6; ++u) set[static_cast<std::size_t>(6 + u)] = row >> u & 1;
+    set[4] = set[12] = 1;  // above and below
+    EXPECT_EQ(nearest_set_pixel(set, 6, 3), search_everywhere(set, 6, 3)) << row;
+  }
 }
 
 TEST(NearestPixel, SpansTheLargestField) {
