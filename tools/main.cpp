@@ -10,6 +10,7 @@
 #include "eval_command.hpp"
 #include "exit_code.hpp"
 #include "flowdlo/version.hpp"
+#include "mask_command.hpp"
 #include "synth_command.hpp"
 #include "terminal.hpp"
 #include "weights_command.hpp"
@@ -34,6 +35,7 @@ int run(int argc, char** argv) {
 
   auto exit_code = ExitCode::kDone;
   add_estimate_command(app, exit_code);
+  add_mask_command(app, exit_code);
   add_devices_command(app);
   add_synth_command(app, exit_code);
   add_weights_command(app, exit_code);
