@@ -11,6 +11,7 @@
 #include "exit_code.hpp"
 #include "flowdlo/version.hpp"
 #include "mask_command.hpp"
+#include "shell_commands.hpp"
 #include "synth_command.hpp"
 #include "terminal.hpp"
 #include "weights_command.hpp"
@@ -41,6 +42,11 @@ int run(int argc, char** argv) {
   add_weights_command(app, exit_code);
   add_bench_command(app, exit_code);
   add_eval_command(app, exit_code);
+  add_shell_commands(app, exit_code);
+  if (const auto unknown = unknown_command(app, argc > 1 ? argv[1] : ""); !unknown.empty()) {
+    tell_error("{}", unknown);
+    return static_cast<int>(ExitCode::kUsage);
+  }
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& end) {  // --help and --version come this way as well
