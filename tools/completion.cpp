@@ -22,7 +22,7 @@ std::string in_quotes(const std::string& text) {
 /// " weights info": as the scripts gather it word by word.
 std::string path_of(const CommandRow& row) {
   std::string path;
-  for (const auto& word : row.path) path += " " + word;
+  for (const auto& word : row.path) path.append(" ").append(word);
   return path;
 }
 
@@ -36,17 +36,17 @@ std::vector<std::string> option_names(const CommandRow& row) {
   return names;
 }
 
-/// The `case` that follows the words of the line down the commands.
-std::string walk(const std::vector<CommandRow>& table, const char* indent) {
+/// The cases that follow the words of the line down the commands, in the shell's `variable`.
+std::string walk(const std::vector<CommandRow>& table, const char* variable) {
   std::string out;
   for (const auto& row : table) {
     if (row.path.empty()) continue;
     std::string above;
-    for (std::size_t i = 0; i + 1 < row.path.size(); ++i) above += " " + row.path[i];
+    for (std::size_t i = 0; i + 1 < row.path.size(); ++i) above.append(" ").append(row.path[i]);
     std::vector<std::string> names = {row.path.back()};
     names.insert(names.end(), row.aliases.begin(), row.aliases.end());
     for (const auto& name : names) {
-      out += fmt::format("{}\"{} {}\") path=\"{}\" ;;\n", indent, above, name, path_of(row));
+      out += fmt::format("      \"{} {}\") {}=\"{}\" ;;\n", above, name, variable, path_of(row));
     }
   }
   return out;
@@ -82,11 +82,14 @@ _{0}() {{
 {3}    esac
     if [[ $cur == -* ]]; then words=$options; else words=$commands; fi
   fi
-  mapfile -t COMPREPLY < <(compgen -W "$words" -- "$cur")
+  COMPREPLY=()
+  for i in $words; do
+    if [[ $i == "$cur"* ]]; then COMPREPLY+=("$i"); fi
+  done
 }}
 complete -o default -F _{0} {0}
 )",
-                     name, walk(table, "      "), values, words);
+                     name, walk(table, "path"), values, words);
 }
 
 std::string zsh(const std::string& name, const std::vector<CommandRow>& table) {
@@ -97,7 +100,7 @@ std::string zsh(const std::string& name, const std::vector<CommandRow>& table) {
     for (const auto& option : row.options) {
       if (option.positional) continue;
       for (const auto& word : option.names) {
-        cases += " " + in_quotes(fmt::format("{}[{}]", word, option.description));
+        cases += fmt::format(" {}", in_quotes(fmt::format("{}[{}]", word, option.description)));
       }
     }
     cases += ") ;;\n";
@@ -136,16 +139,7 @@ _{0}() {{
 }}
 _{0} "$@"
 )",
-                     name,
-                     [&] {
-                       auto text = walk(table, "      ");
-                       for (std::size_t at = 0; (at = text.find(" path=", at)) != std::string::npos;
-                            at += 6) {
-                         text.replace(at, 6, " path_of_words=");
-                       }
-                       return text;
-                     }(),
-                     values, cases);
+                     name, walk(table, "path_of_words"), values, cases);
 }
 
 std::string fish(const std::string& name, const std::vector<CommandRow>& table) {
@@ -156,7 +150,7 @@ std::string fish(const std::string& name, const std::vector<CommandRow>& table) 
     if (!row.path.empty()) {
       when.clear();
       for (const auto& word : row.path) {
-        when += (when.empty() ? "" : "; and ") + ("__fish_seen_subcommand_from " + word);
+        when += fmt::format("{}__fish_seen_subcommand_from {}", when.empty() ? "" : "; and ", word);
         if (row.path.size() == 1) when += fmt::format(" {}", fmt::join(row.aliases, " "));
       }
     }
@@ -174,7 +168,8 @@ std::string fish(const std::string& name, const std::vector<CommandRow>& table) 
       if (option.positional) continue;
       out += begin;
       for (const auto& word : option.names) {
-        out += word.starts_with("--") ? " -l " + word.substr(2) : " -s " + word.substr(1);
+        const bool is_long = word.starts_with("--");
+        out.append(is_long ? " -l " : " -s ").append(word.substr(is_long ? 2 : 1));
       }
       if (!option.choices.empty()) {
         out +=
@@ -182,7 +177,7 @@ std::string fish(const std::string& name, const std::vector<CommandRow>& table) 
       } else if (!option.value.empty()) {
         out += " -r";
       }
-      out += " -d " + in_quotes(option.description) + "\n";
+      out += fmt::format(" -d {}\n", in_quotes(option.description));
     }
   }
   return out;
