@@ -55,8 +55,8 @@ void RopeNode::subscribe() {
   info_.subscribe(topics_, "camera_info", kQueue);
   if (with_mask_) mask_.subscribe(topics_, "mask", kQueue);
   if (with_color_) color_.subscribe(topics_, "color", kQueue);
-  // With a least time between messages of a topic a set is complete when its last one comes; without
-  // one the next frame would have to come first.
+  // With a least time between messages of a topic a set is complete when its last one comes;
+  // without one the next frame would have to come first.
   const auto apart = ros::Duration(own_.param("least_interval_s", 0.02));
   const auto tune = [&](auto& policy, int topics) {
     policy.setMaxIntervalDuration(within);
