@@ -4,6 +4,9 @@ if(CMAKE_CROSSCOMPILING AND NOT CMAKE_CROSSCOMPILING_EMULATOR)
   message(STATUS "Manual pages and completion are left out: the command cannot run here")
   return()
 endif()
+if(FLOWDLO_SANITIZE OR FLOWDLO_FUZZ)  # nobody installs such a build
+  return()
+endif()
 find_program(FLOWDLO_GZIP gzip)
 mark_as_advanced(FLOWDLO_GZIP)
 

@@ -1,6 +1,6 @@
 # Debian packages by CPack: libflowdlo0.1, libflowdlo-dev, flowdlo, python3-flowdlo. scripts/package
 # configures a build for them: prefix /usr, no RUNPATH, Debian's place for Python packages.
-if(NOT BUILD_SHARED_LIBS OR NOT UNIX OR APPLE)
+if(NOT PROJECT_IS_TOP_LEVEL OR NOT BUILD_SHARED_LIBS OR NOT UNIX OR APPLE)
   return()
 endif()
 set(FLOWDLO_PACKAGE_MAINTAINER "The FlowDLO authors <authors@flowdlo.invalid>" CACHE STRING
