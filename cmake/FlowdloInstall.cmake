@@ -9,14 +9,19 @@ set(FLOWDLO_INSTALL_DATADIR "${CMAKE_INSTALL_DATADIR}/flowdlo")
 get_target_property(FLOWDLO_LIBRARY_TYPE flowdlo TYPE)
 
 set_target_properties(flowdlo PROPERTIES INSTALL_RPATH "")  # it has no library of ours to find
-install(TARGETS flowdlo EXPORT flowdloTargets)
+install(TARGETS flowdlo EXPORT flowdloTargets
+        LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT library
+                NAMELINK_COMPONENT development
+        ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT development)
 install(DIRECTORY "${PROJECT_SOURCE_DIR}/include/flowdlo"
-        DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}" FILES_MATCHING PATTERN "*.hpp" PATTERN "*.h")
+        DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}" COMPONENT development FILES_MATCHING PATTERN "*.hpp" PATTERN "*.h")
 install(FILES "${PROJECT_BINARY_DIR}/include/flowdlo/version.hpp"
-        DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/flowdlo")
-install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" DESTINATION "${FLOWDLO_INSTALL_DATADIR}")
+        DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/flowdlo" COMPONENT development)
+install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" DESTINATION "${FLOWDLO_INSTALL_DATADIR}"
+        COMPONENT licence)
 
-install(EXPORT flowdloTargets NAMESPACE flowdlo:: DESTINATION "${FLOWDLO_INSTALL_CMAKEDIR}")
+install(EXPORT flowdloTargets NAMESPACE flowdlo:: DESTINATION "${FLOWDLO_INSTALL_CMAKEDIR}"
+        COMPONENT development)
 configure_package_config_file("${PROJECT_SOURCE_DIR}/cmake/flowdloConfig.cmake.in"
                               "${PROJECT_BINARY_DIR}/flowdloConfig.cmake"
                               INSTALL_DESTINATION "${FLOWDLO_INSTALL_CMAKEDIR}"
@@ -25,7 +30,7 @@ write_basic_package_version_file("${PROJECT_BINARY_DIR}/flowdloConfigVersion.cma
                                  COMPATIBILITY SameMinorVersion)
 install(FILES "${PROJECT_BINARY_DIR}/flowdloConfig.cmake"
               "${PROJECT_BINARY_DIR}/flowdloConfigVersion.cmake"
-        DESTINATION "${FLOWDLO_INSTALL_CMAKEDIR}")
+        DESTINATION "${FLOWDLO_INSTALL_CMAKEDIR}" COMPONENT development)
 
 # flowdlo.pc finds its prefix from its own place, so that an installed tree can be moved.
 file(RELATIVE_PATH FLOWDLO_PC_PREFIX "/${FLOWDLO_INSTALL_PCDIR}" "/")
@@ -37,4 +42,7 @@ if(FLOWDLO_LIBRARY_TYPE STREQUAL "STATIC_LIBRARY")
   set(FLOWDLO_PC_LIBS " -lpthread -ldl")
 endif()
 configure_file("${PROJECT_SOURCE_DIR}/cmake/flowdlo.pc.in" "${PROJECT_BINARY_DIR}/flowdlo.pc" @ONLY)
-install(FILES "${PROJECT_BINARY_DIR}/flowdlo.pc" DESTINATION "${FLOWDLO_INSTALL_PCDIR}")
+install(FILES "${PROJECT_BINARY_DIR}/flowdlo.pc" DESTINATION "${FLOWDLO_INSTALL_PCDIR}"
+        COMPONENT development)
+
+include(FlowdloPackages)

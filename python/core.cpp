@@ -18,6 +18,7 @@
 #include "config.hpp"
 #include "failure.hpp"
 #include "flowdlo/flowdlo.hpp"
+#include "masks.hpp"
 #include "results.hpp"
 
 namespace flowdlo::python {
@@ -213,9 +214,11 @@ PYBIND11_MODULE(_core, module) {
     estimate.nodes = centerline_of(nodes);
     return array_of(value_of(estimate.curve(points)));
   });
-  module.def("load_frame_folder", [](const py::bytes& folder) {
+  module.def("load_frame_folder", [](const py::bytes& folder, bool with_mask) {
     const std::string path = folder;
-    return dict_of(value_of(without_lock([&] { return load_frame_folder(path); })));
+    return dict_of(value_of(without_lock([&] {
+      return with_mask ? load_frame_folder(path) : load_frame_folder_without_mask(path);
+    })));
   });
   module.def("survey_devices", [](bool self_test) {
     return dict_of(without_lock([&] { return survey_devices(self_test); }));
@@ -224,6 +227,7 @@ PYBIND11_MODULE(_core, module) {
     const std::string path = file;
     return dict_of(value_of(without_lock([&] { return inspect_weights(path); })));
   });
+  add_masks(module);
 }
 
 }  // namespace flowdlo::python

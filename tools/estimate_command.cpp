@@ -6,12 +6,12 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
-#include <map>
 #include <memory>
 #include <string>
 #include <system_error>
 #include <vector>
 
+#include "choice.hpp"
 #include "durability_choice.hpp"
 #include "files/shown_name.hpp"
 #include "flowdlo/estimator.hpp"
@@ -208,8 +208,7 @@ void add_estimate_command(CLI::App& app, ExitCode& exit_code) {
       ->add_option("--overlay", options->field_overlay,
                    "What overlay.png shows below the curve: plain, the image alone, or field, what "
                    "the strand field says of it")
-      ->transform(CLI::CheckedTransformer(
-          std::map<std::string, bool>{{"plain", false}, {"field", true}}, CLI::ignore_case))
+      ->transform(choice<bool>({{"plain", false}, {"field", true}}))
       ->excludes(ropes)
       ->type_name("WHAT");
   command->add_flag("--quiet", options->quiet, "Print errors only");

@@ -10,6 +10,8 @@
 #include "eval_command.hpp"
 #include "exit_code.hpp"
 #include "flowdlo/version.hpp"
+#include "mask_command.hpp"
+#include "shell_commands.hpp"
 #include "synth_command.hpp"
 #include "terminal.hpp"
 #include "weights_command.hpp"
@@ -34,11 +36,17 @@ int run(int argc, char** argv) {
 
   auto exit_code = ExitCode::kDone;
   add_estimate_command(app, exit_code);
+  add_mask_command(app, exit_code);
   add_devices_command(app);
   add_synth_command(app, exit_code);
   add_weights_command(app, exit_code);
   add_bench_command(app, exit_code);
   add_eval_command(app, exit_code);
+  add_shell_commands(app, exit_code);
+  if (const auto unknown = unknown_command(app, argc > 1 ? argv[1] : ""); !unknown.empty()) {
+    tell_error("{}", unknown);
+    return static_cast<int>(ExitCode::kUsage);
+  }
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& end) {  // --help and --version come this way as well

@@ -1,8 +1,8 @@
 #include "model_options.hpp"
 
-#include <map>
 #include <string>
 
+#include "choice.hpp"
 #include "wide_lavapipe.hpp"
 
 namespace flowdlo::tools {
@@ -13,32 +13,25 @@ void add_prior_options(CLI::App& command, Config& config) {
       .add_option("--prior", config.prior,
                   "What the model refines: thesis (Eq. 3.1-3.7), refined (on the rope's axis), or "
                   "auto, as the weights were trained")
-      ->transform(CLI::CheckedTransformer(
-          std::map<std::string, PriorChoice>{{"auto", PriorChoice::kOfWeights},
-                                             {"thesis", PriorChoice::kThesis},
-                                             {"refined", PriorChoice::kRefined}},
-          CLI::ignore_case))
+      ->transform(choice<PriorChoice>({{"auto", PriorChoice::kOfWeights},
+                                       {"thesis", PriorChoice::kThesis},
+                                       {"refined", PriorChoice::kRefined}}))
       ->type_name("KIND");
   command
       .add_option(
           "--gate", config.gate,
           "Who decides between predictions and priors: thesis (Eq. 3.30-3.33), calibrated (a "
           "fitted score), or auto, as the weights were trained")
-      ->transform(CLI::CheckedTransformer(
-          std::map<std::string, GateChoice>{{"auto", GateChoice::kOfWeights},
-                                            {"thesis", GateChoice::kThesis},
-                                            {"calibrated", GateChoice::kCalibrated}},
-          CLI::ignore_case))
+      ->transform(choice<GateChoice>({{"auto", GateChoice::kOfWeights},
+                                      {"thesis", GateChoice::kThesis},
+                                      {"calibrated", GateChoice::kCalibrated}}))
       ->type_name("RULE");
   command
       .add_option(
           "--field", config.field,
           "The strand field, which sees strands where the mask leaves doubt: auto (where its "
           "weights lie beside the model's) or off")
-      ->transform(
-          CLI::CheckedTransformer(std::map<std::string, FieldChoice>{{"auto", FieldChoice::kBeside},
-                                                                     {"off", FieldChoice::kOff}},
-                                  CLI::ignore_case))
+      ->transform(choice<FieldChoice>({{"auto", FieldChoice::kBeside}, {"off", FieldChoice::kOff}}))
       ->type_name("CHOICE");
   command
       .add_option("--field-weights", config.field_weights,
@@ -71,9 +64,7 @@ void add_model_options(CLI::App& command, Config& config) {
       .add_option("--quality", config.quality,
                   "full: 10 steps of 4 draws; fast: the steps and draws that the weights' metadata "
                   "say lose nothing")
-      ->transform(CLI::CheckedTransformer(
-          std::map<std::string, Quality>{{"full", Quality::kFull}, {"fast", Quality::kFast}},
-          CLI::ignore_case))
+      ->transform(choice<Quality>({{"full", Quality::kFull}, {"fast", Quality::kFast}}))
       ->excludes(steps)
       ->excludes(draws)
       ->type_name("QUALITY");

@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "choice.hpp"
 #include "contact_sheet.hpp"
 #include "progress_bar.hpp"
 #include "synth/synthetic_frame.hpp"
@@ -198,16 +199,15 @@ void add_synth_command(CLI::App& app, ExitCode& exit_code) {
       ->add_option("--split", options->split,
                    "thesis (nine groups on a table, clean depth), wide (sensors, occluders, "
                    "hanging ropes) or several (the same with two to nine ropes) [wide]")
-      ->transform(CLI::CheckedTransformer(
-          std::map<std::string, synth::Split>{{"thesis", synth::Split::kThesis},
-                                              {"wide", synth::Split::kWide},
-                                              {"several", synth::Split::kSeveral}}))
+      ->transform(choice<synth::Split>({{"thesis", synth::Split::kThesis},
+                                        {"wide", synth::Split::kWide},
+                                        {"several", synth::Split::kSeveral}}))
       ->type_name("NAME");
   command
       ->add_option("--part", options->part,
                    "training or validation; they share no scene [training]")
-      ->transform(CLI::CheckedTransformer(std::map<std::string, synth::Part>{
-          {"training", synth::Part::kTraining}, {"validation", synth::Part::kValidation}}))
+      ->transform(choice<synth::Part>(
+          {{"training", synth::Part::kTraining}, {"validation", synth::Part::kValidation}}))
       ->type_name("NAME");
   command->add_option("--count", options->count, "Scenes [thesis: all, others: 100]")
       ->check(CLI::Range(1, 100000000));

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "c_api/arguments.hpp"
 #include "c_api/images.hpp"
 #include "c_api/last_error.hpp"
 #include "c_api/sized.hpp"
@@ -42,22 +43,6 @@ static_assert(FLOWDLO_DOUBT_STRANDS_LEFT == 1U << static_cast<int>(Doubt::kStran
 static_assert(FLOWDLO_DOUBT_BARE_GAP == 1U << static_cast<int>(Doubt::kBareGap));
 static_assert(FLOWDLO_DOUBT_GOES_ON == 1U << static_cast<int>(Doubt::kGoesOn));
 
-Result<void> check_there(const void* argument, const char* name) {
-  if (argument != nullptr) return {};
-  return Error{ErrorCode::kBadInput,
-               fmt::format("{}: expected an address, got NULL; pass one", name)};
-}
-
-/// Fills a struct that the caller says is of `bytes` with `value`.
-template <class Struct>
-flowdlo_status initialise(Struct* given, std::size_t bytes, const Struct& value) {
-  return told(guard::guarded(Kind<Struct>::kName, [&]() -> Result<void> {
-    if (const auto fits = check_size(given, bytes); !fits) return fits.error();
-    write(given, bytes, value);
-    return {};
-  }));
-}
-
 flowdlo_config default_config() {
   const Config defaults;
   return {.struct_size = sizeof(flowdlo_config),
@@ -79,13 +64,6 @@ flowdlo_config default_config() {
           .validation = defaults.validation ? 1 : 0,
           .reserved = 0,
           .budget_ms = defaults.budget_ms};
-}
-
-flowdlo_frame default_frame() {
-  flowdlo_frame frame{};
-  frame.struct_size = sizeof(frame);
-  frame.depth_scale_m = 0.001;
-  return frame;
 }
 
 Config config_of(const flowdlo_config& given) {
@@ -220,13 +198,13 @@ Result<void> alternative(const flowdlo_estimator* estimator, std::int32_t index,
   return {};
 }
 
-Result<void> load(const char* path, flowdlo_frame_folder** out) {
+Result<void> load(const char* path, flowdlo_frame_folder** out, bool with_mask) {
   if (const auto there = check_there(path, "flowdlo_frame_folder_load: path"); !there)
     return there.error();
   if (const auto there = check_there(out, "flowdlo_frame_folder_load: folder"); !there) {
     return there.error();
   }
-  auto folder = load_frame_folder(path);
+  auto folder = with_mask ? load_frame_folder(path) : load_frame_folder_without_mask(path);
   if (!folder) return folder.error();
   *out = std::make_unique<flowdlo_frame_folder>(flowdlo_frame_folder{*std::move(folder)}).release();
   return {};
@@ -290,7 +268,13 @@ flowdlo_status flowdlo_alternative_init(flowdlo_alternative* alternative, size_t
 
 flowdlo_status flowdlo_frame_folder_load(const char* path, flowdlo_frame_folder** folder) {
   return c_api::told(
-      guard::guarded("flowdlo_frame_folder_load", [&] { return c_api::load(path, folder); }));
+      guard::guarded("flowdlo_frame_folder_load", [&] { return c_api::load(path, folder, true); }));
+}
+
+flowdlo_status flowdlo_frame_folder_load_without_mask(const char* path,
+                                                      flowdlo_frame_folder** folder) {
+  return c_api::told(guard::guarded("flowdlo_frame_folder_load_without_mask",
+                                    [&] { return c_api::load(path, folder, false); }));
 }
 
 flowdlo_status flowdlo_frame_folder_frame(const flowdlo_frame_folder* folder,

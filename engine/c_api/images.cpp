@@ -186,20 +186,30 @@ std::span<const std::uint8_t> color_of(const Strided& image, const Rectangle& re
 
 }  // namespace
 
-Result<Frame> frame_of(const flowdlo_frame& given, Copies& copies) {
+flowdlo_frame default_frame() {
+  flowdlo_frame frame{};
+  frame.struct_size = sizeof(frame);
+  frame.depth_scale_m = 0.001;
+  return frame;
+}
+
+Result<Frame> frame_of(const flowdlo_frame& given, Copies& copies, const Uses& uses) {
   Faults faults;
   const Rectangle region = region_of(given, faults);
   if (!faults.lines.empty()) return Error{ErrorCode::kBadInput, faults.lines};
-  const Strided depth = strided("depth", given.depth, FLOWDLO_PIXEL_F32, FLOWDLO_PIXEL_U16,
-                                "FLOWDLO_PIXEL_F32 or FLOWDLO_PIXEL_U16", given, region, faults);
-  const Strided mask = strided("mask", given.mask, FLOWDLO_PIXEL_U8, FLOWDLO_PIXEL_U8,
-                               "FLOWDLO_PIXEL_U8", given, region, faults);
-  Strided color;
-  if (given.color.data != nullptr) {
-    color = strided("color", given.color, FLOWDLO_PIXEL_BGR8, FLOWDLO_PIXEL_RGB8,
-                    "FLOWDLO_PIXEL_BGR8 or FLOWDLO_PIXEL_RGB8", given, region, faults);
-  }
-  if (given.depth.pixel == FLOWDLO_PIXEL_U16 &&
+  const auto read = [&](const char* name, const flowdlo_image& image, Use use, std::int32_t one,
+                        std::int32_t other, const char* expected) {
+    const bool absent = image.data == nullptr && use == Use::kIfThere;
+    if (absent || use == Use::kUnread) return Strided{};
+    return strided(name, image, one, other, expected, given, region, faults);
+  };
+  const Strided depth = read("depth", given.depth, uses.depth, FLOWDLO_PIXEL_F32, FLOWDLO_PIXEL_U16,
+                             "FLOWDLO_PIXEL_F32 or FLOWDLO_PIXEL_U16");
+  const Strided mask =
+      read("mask", given.mask, uses.mask, FLOWDLO_PIXEL_U8, FLOWDLO_PIXEL_U8, "FLOWDLO_PIXEL_U8");
+  const Strided color = read("color", given.color, uses.color, FLOWDLO_PIXEL_BGR8,
+                             FLOWDLO_PIXEL_RGB8, "FLOWDLO_PIXEL_BGR8 or FLOWDLO_PIXEL_RGB8");
+  if (uses.depth != Use::kUnread && given.depth.pixel == FLOWDLO_PIXEL_U16 &&
       !(given.depth_scale_m > 0 && given.depth_scale_m <= 1)) {
     faults.add(fmt::format(
         "flowdlo_frame.depth_scale_m: expected metres a unit, over 0 and at most 1, got {}; "
@@ -212,9 +222,13 @@ Result<Frame> frame_of(const flowdlo_frame& given, Copies& copies) {
               .height = region.height,
               .intrinsics = {given.fx, given.fy, given.cx - static_cast<float>(region.u),
                              given.cy - static_cast<float>(region.v)},
-              .depth_m = depth_of(depth, region, given.depth_scale_m, copies.depth_m),
-              .mask = mask_of(mask, region, copies.mask),
+              .depth_m = {},
+              .mask = {},
               .color_bgr = {}};
+  if (depth.first != nullptr) {
+    frame.depth_m = depth_of(depth, region, given.depth_scale_m, copies.depth_m);
+  }
+  if (mask.first != nullptr) frame.mask = mask_of(mask, region, copies.mask);
   if (color.first != nullptr) frame.color_bgr = color_of(color, region, copies.color_bgr);
   return frame;
 }

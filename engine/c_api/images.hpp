@@ -17,10 +17,23 @@ struct Copies {
   std::vector<std::uint8_t> color_bgr;
 };
 
+/// What a call does with an image.
+enum class Use { kNeeded, kIfThere, kUnread };
+
+struct Uses {
+  Use depth = Use::kNeeded;
+  Use mask = Use::kNeeded;
+  Use color = Use::kIfThere;
+};
+
+/// What flowdlo_frame_init writes.
+[[nodiscard]] flowdlo_frame default_frame();
+
 /// Views of the region of interest of `given`, whose struct_size has been checked, into the
 /// caller's memory where it is packed and of the Frame's own types, otherwise into `copies`. Fails
 /// with kBadInput and every fault of sizes, strides, kinds of pixels and region; what is in the
 /// images, and the intrinsics, are the estimator's affair.
-[[nodiscard]] Result<Frame> frame_of(const flowdlo_frame& given, Copies& copies);
+[[nodiscard]] Result<Frame> frame_of(const flowdlo_frame& given, Copies& copies,
+                                     const Uses& uses = {});
 
 }  // namespace flowdlo::c_api

@@ -50,6 +50,30 @@ struct Kind<flowdlo_alternative> {
   static_assert(sizeof(flowdlo_alternative) == kFirstBytes);
 };
 
+template <>
+struct Kind<flowdlo_color_band> {
+  static constexpr const char* kName = "flowdlo_color_band";
+  static constexpr std::size_t kFirstBytes =
+      offsetof(flowdlo_color_band, least_piece_px2) + sizeof(flowdlo_color_band::least_piece_px2);
+  static_assert(sizeof(flowdlo_color_band) == kFirstBytes);
+};
+
+template <>
+struct Kind<flowdlo_height_band> {
+  static constexpr const char* kName = "flowdlo_height_band";
+  static constexpr std::size_t kFirstBytes =
+      offsetof(flowdlo_height_band, reserved) + sizeof(flowdlo_height_band::reserved);
+  static_assert(sizeof(flowdlo_height_band) == kFirstBytes);
+};
+
+template <>
+struct Kind<flowdlo_seed_growth> {
+  static constexpr const char* kName = "flowdlo_seed_growth";
+  static constexpr std::size_t kFirstBytes =
+      offsetof(flowdlo_seed_growth, smooth) + sizeof(flowdlo_seed_growth::smooth);
+  static_assert(sizeof(flowdlo_seed_growth) == kFirstBytes);
+};
+
 /// The struct is there and of a size that a version up to this one has.
 template <class Struct>
 [[nodiscard]] Result<void> check_size(const Struct* given, std::size_t bytes) {

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cstdlib>
 #include <exception>
-#include <filesystem>
 #include <utility>
 
+#include "estimator/cache_folder.hpp"
 #include "estimator/self_test.hpp"
 #include "flowdlo/devices.hpp"
 #include "guard/caught.hpp"
@@ -35,16 +35,6 @@ int timeout_ms(const Config& config, DeviceKind kind) {
   return kUsual_ms / kUsualWork * work * (kind == DeviceKind::kCpu ? kCpuDriverFactor : 1);
 }
 
-/// Where compiled kernels and their choice are kept between processes: XDG's cache folder.
-std::filesystem::path cache_folder() {
-  for (const auto& [variable, below] :
-       {std::pair{"XDG_CACHE_HOME", "flowdlo"}, std::pair{"HOME", ".cache/flowdlo"}}) {
-    const char* const folder = std::getenv(variable);
-    if (folder != nullptr && folder[0] == '/') return std::filesystem::path(folder) / below;
-  }
-  return {};
-}
-
 Result<BackEnd> open_vulkan(const Config& config, const std::string& wanted) {
   auto opened = vulkan::open_device(
       {.wanted = wanted, .allow_cpu_driver = true, .validation = config.validation});
@@ -52,7 +42,7 @@ Result<BackEnd> open_vulkan(const Config& config, const std::string& wanted) {
   const auto device = *opened;
   const DeviceReport& report = vulkan::report(*device);
   const vulkan::ProgramOptions options{.timeout_ms = timeout_ms(config, report.kind),
-                                       .pipeline_cache = cache_folder()};
+                                       .pipeline_cache = cache_folder(std::getenv)};
   return BackEnd{report.name,
                  [device, options] { return vulkan::create_program(device, options); }};
 }

@@ -16,9 +16,15 @@ inline constexpr const char* kKeyFile = "camera.json";
 inline constexpr std::array<const char*, 6> kFrameFiles = {
     kKeyFile, "depth.png", "mask.png", "color.png", "truth.csv", "instances.png"};
 
-/// load_frame_folder() and save_frame_folder().
+enum class MaskFile {
+  kNeeded,
+  kNotRead,  ///< the mask is 0 everywhere
+};
+
+/// load_frame_folder() or load_frame_folder_without_mask(), and save_frame_folder().
 [[nodiscard]] Result<FrameFolder> load_folder(const std::filesystem::path& folder,
-                                              const files::SystemCalls& calls);
+                                              const files::SystemCalls& calls,
+                                              MaskFile mask = MaskFile::kNeeded);
 [[nodiscard]] Result<void> save_folder(const std::filesystem::path& folder, const Frame& frame,
                                        double depth_scale_m, const Centerline* truth,
                                        Durability durability, const files::SystemCalls& calls);

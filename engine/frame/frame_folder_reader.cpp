@@ -227,13 +227,15 @@ std::vector<float> metres_of(const cv::Mat& depth, double scale_m) {
 
 }  // namespace
 
-Result<FrameFolder> frame::load_folder(const fs::path& folder, const files::SystemCalls& calls) {
+Result<FrameFolder> frame::load_folder(const fs::path& folder, const files::SystemCalls& calls,
+                                       MaskFile mask) {
   std::error_code failure;
   if (!fs::is_directory(folder, failure)) {
     return Error{ErrorCode::kIo,
-                 fmt::format("{}: expected a folder with depth.png, mask.png and camera.json, got "
-                             "{}; check the path",
-                             files::shown(folder), is_there(folder) ? "no folder" : "nothing")};
+                 fmt::format("{}: expected a folder with depth.png,{} and camera.json, got {}; "
+                             "check the path",
+                             files::shown(folder), mask == MaskFile::kNeeded ? " mask.png" : "",
+                             is_there(folder) ? "no folder" : "nothing")};
   }
   auto opened = files::open_together(folder, frame::kFrameFiles, calls);
   if (!opened) return opened.error();
@@ -244,7 +246,7 @@ Result<FrameFolder> frame::load_folder(const fs::path& folder, const files::Syst
   Files files;
   files.camera = load_camera(source(0), faults);
   files.depth = load_depth(source(1), faults);
-  files.mask = load_mask(source(2), faults);
+  if (mask == MaskFile::kNeeded) files.mask = load_mask(source(2), faults);
   files.color = load_color(source(3), faults);
   auto truth = load_truth(source(4), faults);
   files.instances = load_instances(source(5), faults);
@@ -260,6 +262,7 @@ Result<FrameFolder> frame::load_folder(const fs::path& folder, const files::Syst
                      bytes_of(files.color),
                      truth,
                      labels_of(files.instances)};
+  if (mask == MaskFile::kNotRead) loaded.mask.assign(loaded.depth_m.size(), 0);
   if (const auto valid = validate(loaded.frame()); !valid) return valid.error();
   return loaded;
 }
@@ -267,6 +270,12 @@ Result<FrameFolder> frame::load_folder(const fs::path& folder, const files::Syst
 Result<FrameFolder> load_frame_folder(const fs::path& folder) {
   return guard::guarded("load_frame_folder",
                         [&] { return frame::load_folder(folder, files::kernel()); });
+}
+
+Result<FrameFolder> load_frame_folder_without_mask(const fs::path& folder) {
+  return guard::guarded("load_frame_folder_without_mask", [&] {
+    return frame::load_folder(folder, files::kernel(), frame::MaskFile::kNotRead);
+  });
 }
 
 }  // namespace flowdlo

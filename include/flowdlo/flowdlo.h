@@ -145,6 +145,78 @@ FLOWDLO_EXPORT flowdlo_status flowdlo_frame_folder_frame(const flowdlo_frame_fol
 
 FLOWDLO_EXPORT void flowdlo_frame_folder_destroy(flowdlo_frame_folder* folder);
 
+/* The same of a folder whose mask is still to be made: mask.png is not read, the mask is 0. */
+FLOWDLO_EXPORT flowdlo_status flowdlo_frame_folder_load_without_mask(const char* path,
+                                                                     flowdlo_frame_folder** folder);
+
+/* ---- Masks ---- */
+
+/* The calls of <flowdlo/mask.hpp>, which says more of each field. Each reads the images that it
+ * names and no others, which may be missing, and writes `mask_bytes` bytes, 255 where the rope is
+ * and 0 elsewhere: [roi_height, roi_width] of the frame's region of interest, [height, width]
+ * without one, packed. Other sizes are FLOWDLO_BAD_INPUT. Areas are pixels of an image 640 px wide.
+ */
+
+/* The rope's colour as light does not change it. */
+typedef struct flowdlo_color_band {
+  size_t struct_size; /* bytes; flowdlo_color_band_init */
+  uint8_t red;        /* the rope's colour, sRGB */
+  uint8_t green;
+  uint8_t blue;
+  uint8_t smooth;        /* 1: lone pixels go, surrounded ones are filled; 0: not so */
+  float tolerance;       /* distance of chromaticities, over 0, at most 2 */
+  float least_lightness; /* OKLab's L, 0..1 */
+  float most_lightness;  /* the same */
+  float fill_holes_px2;  /* holes up to this area are filled, 0..1e6 */
+  float least_piece_px2; /* pieces below this area are left out, 0..1e6 */
+} flowdlo_color_band;
+
+/* How far above the table the rope may lie. */
+typedef struct flowdlo_height_band {
+  size_t struct_size;    /* bytes; flowdlo_height_band_init */
+  float least_m;         /* metres, over 0 */
+  float most_m;          /* metres, over least_m, at most 10 */
+  float fill_holes_px2;  /* as in flowdlo_color_band */
+  float least_piece_px2; /* as in flowdlo_color_band */
+  int32_t smooth;        /* as in flowdlo_color_band */
+  int32_t reserved;      /* 0 */
+} flowdlo_height_band;
+
+/* How a region grows from the pixels that somebody clicked on. */
+typedef struct flowdlo_seed_growth {
+  size_t struct_size;        /* bytes; flowdlo_seed_growth_init */
+  float tolerance;           /* distance of chromaticities, over 0, at most 2 */
+  float lightness_tolerance; /* of OKLab's L, over 0, at most 2 */
+  float depth_step_m;        /* metres between neighbours, over 0, at most 10 */
+  float fill_holes_px2;      /* as in flowdlo_color_band */
+  float least_piece_px2;     /* as in flowdlo_color_band */
+  int32_t smooth;            /* as in flowdlo_color_band */
+} flowdlo_seed_growth;
+
+/* Fill a struct with the defaults. `struct_size` is sizeof of the struct. */
+FLOWDLO_EXPORT flowdlo_status flowdlo_color_band_init(flowdlo_color_band* band, size_t struct_size);
+FLOWDLO_EXPORT flowdlo_status flowdlo_height_band_init(flowdlo_height_band* band,
+                                                       size_t struct_size);
+FLOWDLO_EXPORT flowdlo_status flowdlo_seed_growth_init(flowdlo_seed_growth* growth,
+                                                       size_t struct_size);
+
+/* Reads color. */
+FLOWDLO_EXPORT flowdlo_status flowdlo_mask_from_color(const flowdlo_frame* frame,
+                                                      const flowdlo_color_band* band, uint8_t* mask,
+                                                      size_t mask_bytes);
+
+/* Reads depth and intrinsics. `band` NULL: the defaults. */
+FLOWDLO_EXPORT flowdlo_status flowdlo_mask_from_plane(const flowdlo_frame* frame,
+                                                      const flowdlo_height_band* band,
+                                                      uint8_t* mask, size_t mask_bytes);
+
+/* Reads color and, where there is one, depth. `seeds` are `count` pixels of the whole images,
+ * [count, 2]: column, row. `growth` NULL: the defaults. */
+FLOWDLO_EXPORT flowdlo_status flowdlo_mask_from_seeds(const flowdlo_frame* frame,
+                                                      const float* seeds, size_t count,
+                                                      const flowdlo_seed_growth* growth,
+                                                      uint8_t* mask, size_t mask_bytes);
+
 /* ---- Estimates ---- */
 
 enum { FLOWDLO_SOURCE_PREDICTION = 0, FLOWDLO_SOURCE_PRIOR = 1 };

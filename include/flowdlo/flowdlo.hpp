@@ -9,6 +9,7 @@
 #include "flowdlo/frame.hpp"         // IWYU pragma: export
 #include "flowdlo/frame_folder.hpp"  // IWYU pragma: export
 #include "flowdlo/hints.hpp"         // IWYU pragma: export
+#include "flowdlo/mask.hpp"          // IWYU pragma: export
 #include "flowdlo/result.hpp"        // IWYU pragma: export
 #include "flowdlo/version.hpp"       // IWYU pragma: export
 #include "flowdlo/weights.hpp"       // IWYU pragma: export

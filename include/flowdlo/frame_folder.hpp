@@ -42,6 +42,11 @@ struct FrameFolder {
 [[nodiscard]] FLOWDLO_EXPORT Result<FrameFolder> load_frame_folder(
     const std::filesystem::path& folder);
 
+/// The same of a folder whose mask is still to be made (mask.hpp): mask.png is not read and may be
+/// absent, the frame's mask is 0 everywhere.
+[[nodiscard]] FLOWDLO_EXPORT Result<FrameFolder> load_frame_folder_without_mask(
+    const std::filesystem::path& folder);
+
 /// Writes `frame` (and `truth`, when given) as a frame folder. The folder changes as a whole or not
 /// at all, whatever fails and whenever the process ends; other files in it stay. Depth is rounded
 /// to the nearest step of `depth_scale` metres, and is 0 where there is none. Fails with kIo, or

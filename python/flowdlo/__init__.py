@@ -24,6 +24,7 @@ from .errors import (
 )
 from .estimator import Estimator
 from .inspection import default_config, inspect_weights, load_frame_folder, survey_devices
+from .masks import clean_mask, mask_from_color, mask_from_plane, mask_from_seeds
 from .results import (
     Alternative,
     Device,
@@ -67,8 +68,12 @@ __all__ = [
     "Timings",
     "WeightsInfo",
     "__version__",
+    "clean_mask",
     "default_config",
     "inspect_weights",
     "load_frame_folder",
+    "mask_from_color",
+    "mask_from_plane",
+    "mask_from_seeds",
     "survey_devices",
 ]

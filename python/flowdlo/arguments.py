@@ -116,6 +116,25 @@ def place(name: str, value: Any) -> list[float]:
     return [_single(number) for number in numbers.tolist()]
 
 
+def pixels(name: str, value: Any) -> list[list[float]]:
+    """Pixels (column, row), at least one."""
+    try:
+        numbers = np.asarray(value, dtype=np.float64)
+    except (TypeError, ValueError) as fault:
+        raise _bad_pixels(name, value) from fault
+    if numbers.ndim != 2 or numbers.shape[1] != 2:
+        raise _bad_pixels(name, value)
+    return [[_single(number) for number in pixel] for pixel in numbers.tolist()]
+
+
+def rgb(value: Any) -> tuple[int, int, int]:
+    """Red, green, blue of 0 to 255."""
+    parts = list(value) if isinstance(value, (list, tuple, np.ndarray)) else []
+    if len(parts) != 3 or not all(isinstance(p, (int, np.integer)) and 0 <= p <= 255 for p in parts):
+        raise BadInput(f"rgb: expected three integers of 0 to 255, red first, got {value!r}")
+    return int(parts[0]), int(parts[1]), int(parts[2])
+
+
 def number(name: str, value: Any) -> float:
     """A finite number."""
     if not _is_number(value):
@@ -153,7 +172,9 @@ def labels(value: Any, depth_m: npt.NDArray[Any]) -> npt.NDArray[np.uint16]:
 
 
 def same_size(
-    depth_m: npt.NDArray[Any], mask_image: npt.NDArray[Any], color_bgr: npt.NDArray[Any] | None
+    depth_m: npt.NDArray[Any],
+    mask_image: npt.NDArray[Any] | None,
+    color_bgr: npt.NDArray[Any] | None,
 ) -> None:
     """Refuses images of several sizes."""
     for name, image in (("mask", mask_image), ("color_bgr", color_bgr)):
@@ -195,6 +216,10 @@ def _bad_place(name: str, value: Any) -> BadInput:
     return BadInput(
         f"{name}: expected a pixel (u, v) or a point (x, y, z) in metres, got {value!r}"
     )
+
+
+def _bad_pixels(name: str, value: Any) -> BadInput:
+    return BadInput(f"{name}: expected pixels [[column, row], ...], got {value!r}")
 
 
 def _bad_intrinsics(value: Any) -> BadInput:

@@ -16,12 +16,14 @@ def default_config() -> dict[str, Any]:
     return {name: os.fsdecode(v) if isinstance(v, bytes) else v for name, v in config.items()}
 
 
-def load_frame_folder(folder: Path) -> FrameFolder:
+def load_frame_folder(folder: Path, with_mask: bool = True) -> FrameFolder:
     """Reads depth.png, mask.png, camera.json and, where present, color.png and truth.csv.
+
+    with_mask: False for a folder whose mask is still to be made: the mask is 0 then.
 
     Raises Io, BadInput or OutOfMemory, naming the file and what to do.
     """
-    found = _core.load_frame_folder(arguments.path("folder", folder))
+    found = _core.load_frame_folder(arguments.path("folder", folder), bool(with_mask))
     found["intrinsics"] = Intrinsics(*found["intrinsics"])
     return FrameFolder(**found)
 

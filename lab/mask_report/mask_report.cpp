@@ -1,0 +1,120 @@
+// flowdlo_mask_report: what estimates are worth where the mask is rough, in one table: rendered
+// scenes, each with its mask as the synthetic segmenter gives it and then made worse.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
+#include <string>
+#include <vector>
+
+#include "eval/metrics.hpp"
+#include "flowdlo/estimator.hpp"
+#include "geometry/quantile.hpp"
+#include "mask_report/rough_mask.hpp"
+#include "synth/synthetic_frame.hpp"
+
+namespace {
+
+namespace lab = flowdlo::lab;
+namespace synth = flowdlo::synth;
+using flowdlo::FrameFolder;
+
+constexpr double kFar_m = 0.02;   // a mean error beyond this is of no use
+constexpr float kTrusted = 0.5F;  // a confidence that a program would go by
+constexpr float kSure = 0.9F;
+
+struct Options {
+  std::string weights;
+  std::string part = "validation";
+  std::uint64_t seed = 0;
+  int frames = 100;
+};
+
+struct Row {
+  int none = 0;
+  int far = 0;
+  int trusted = 0;
+  int far_trusted = 0;
+  int sure = 0;
+  double confidence = 0;
+  std::vector<float> errors_cm{};
+
+  void add(const flowdlo::Result<flowdlo::Estimate>& estimate, const flowdlo::Centerline& truth) {
+    if (!estimate) {
+      ++none;
+      return;
+    }
+    const double error_m = flowdlo::eval::score(estimate->nodes, truth).either_index_m;
+    errors_cm.push_back(static_cast<float>(100 * error_m));
+    const bool is_far = error_m > kFar_m;
+    const bool is_trusted = estimate->confidence >= kTrusted;
+    far += is_far ? 1 : 0;
+    trusted += is_trusted ? 1 : 0;
+    far_trusted += is_far && is_trusted ? 1 : 0;
+    sure += estimate->confidence >= kSure ? 1 : 0;
+    confidence += static_cast<double>(estimate->confidence);
+  }
+
+  void print(const std::string& name) const {
+    const auto count = static_cast<double>(std::max<std::size_t>(errors_cm.size(), 1));
+    double mean_cm = 0;
+    for (const float error_cm : errors_cm) mean_cm += static_cast<double>(error_cm) / count;
+    auto sorted = errors_cm;
+    fmt::print("| {} | {} | {:.2f} | {:.2f} | {:.0f} | {:.2f} | {} | {} | {} |\n", name, none,
+               sorted.empty() ? 0.0F : flowdlo::geometry::median_of(sorted), mean_cm,
+               100 * far / count, confidence / count, trusted, far_trusted, sure);
+  }
+};
+
+int run(const Options& options) {
+  auto estimator = flowdlo::Estimator::create({.weights = options.weights,
+                                               .device = "cpu",
+                                               .quality = flowdlo::Quality::kFast,
+                                               .threads = 1});
+  if (!estimator) {
+    fmt::print(stderr, "{}\n", estimator.error().message);
+    return 1;
+  }
+  const auto kinds = lab::roughnesses();
+  std::vector<Row> rows(kinds.size());
+  for (int i = 0; i < options.frames; ++i) {
+    const auto index = static_cast<std::uint64_t>(i);
+    const auto made = synth::make_frame(synth::Split::kWide, *synth::part_of(options.part),
+                                        options.seed, index, {.color = true});
+    if (!made) {
+      fmt::print(stderr, "{}\n", made.error().message);
+      return 1;
+    }
+    for (std::size_t kind = 0; kind < kinds.size(); ++kind) {
+      const FrameFolder rough = kinds[kind].apply(made->folder, made->meta.width_px, index);
+      rows[kind].add(estimator->estimate(rough.frame()), made->truth());
+    }
+    fmt::print(stderr, "\r{} of {} scenes", i + 1, options.frames);
+  }
+  fmt::print(stderr, "\n");
+  fmt::print(
+      "| mask | no estimate | median error, cm | mean error, cm | over 2 cm, % | mean confidence | "
+      "confidence 0.5 and more | of these over 2 cm | confidence 0.9 and more |\n"
+      "|---|---|---|---|---|---|---|---|---|\n");
+  for (std::size_t kind = 0; kind < kinds.size(); ++kind) rows[kind].print(kinds[kind].name);
+  return 0;
+}
+
+}  // namespace
+
+int main(int count, char** values) {
+  Options options;
+  CLI::App app{"How rough a mask may be"};
+  app.add_option("--weights", options.weights, "Weights of the model, .fdw [those that ship]")
+      ->check(CLI::ExistingFile);
+  app.add_option("--part", options.part, "training or validation, of the wide split")
+      ->check(CLI::IsMember({"training", "validation"}))
+      ->capture_default_str();
+  app.add_option("--seed", options.seed, "Of the scenes")->capture_default_str();
+  app.add_option("--frames", options.frames, "Scenes")
+      ->check(CLI::Range(1, 100000))
+      ->capture_default_str();
+  CLI11_PARSE(app, count, values);
+  return run(options);
+}
