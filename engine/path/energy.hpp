@@ -28,13 +28,14 @@ enum StopTerm : std::size_t {
 };
 using StopTerms = std::array<float, kStopTerms>;
 
-/// Fitted by `flowdlo_energy_fit`: the first five to the ends of strands in 900 `wide` training
-/// scenes of one rope (from 3200000 on), of which the right one of all links is to be the
-/// likeliest; colour, depth and what it costs to stop to 700 scenes of several ropes beside 200 of
-/// those (`--scenes 200
-/// --several 700`). All seven fitted to both (2.1, 1.0, 0.4, 2.0, 1.7, 1.0, 1.05) part several
-/// ropes no better, and make one rope's path worse by 0.08 cm.
-inline constexpr LinkTerms kLinkWeights{1.0F, 1.05F, 0.95F, 2.0F, 3.4F, 0.8F, 1.0F};
+/// Of one rope's way, which has two ends whatever they cost. Fitted by `flowdlo_energy_fit` to the
+/// ends of strands in 900 `wide` training scenes of one rope (from 3200000 on), of which the right
+/// one of all links is to be the likeliest; colour and depth as below.
+inline constexpr LinkTerms kOneRopeLinks{1.0F, 1.05F, 0.95F, 2.0F, 3.4F, 0.8F, 1.0F};
+
+/// Where a rope may as well end. Fitted by the same with `--first 3200000 --scenes 200 --several
+/// 700`, as what stops cost.
+inline constexpr LinkTerms kSeveralRopesLinks{2.1F, 1.0F, 0.4F, 2.0F, 1.7F, 1.0F, 1.05F};
 inline constexpr StopTerms kStopWeights{1.6F, 4.7F};
 
 /// Of each width of a strand that a path leaves out. Chosen on `wide` training scenes 3000500 to

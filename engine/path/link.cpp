@@ -35,9 +35,9 @@ float depth_misfit(const StrandEnd& from, const StrandEnd& to, float width_px, f
 
 class Linker {
  public:
-  Linker(const StrandEnd& from, const StrandEnd& to, const Cover& cover, float scale_px,
-         float trust)
-      : from_(from), to_(to), cover_(cover), w_(scale_px), trust_(trust) {
+  Linker(const StrandEnd& from, const StrandEnd& to, const Cover& cover, const LinkTerms& weights,
+         float scale_px, float trust)
+      : from_(from), to_(to), cover_(cover), weights_(weights), w_(scale_px), trust_(trust) {
     fit_[kLinkColor] = color_misfit(from.look, to.look);
     fit_[kLinkDepth] = depth_misfit(from, to, scale_px, cover.focal_px());
   }
@@ -74,7 +74,7 @@ class Linker {
     attempt.terms[kLinkLong] = std::log1p(attempt.curve.length_px / (kLongWidths * w_));
     attempt.terms[kLinkBend] = trust_ * bend;
     attempt.terms[kLinkStump] = (1 - trust_) * bend;
-    attempt.energy = energy_of(attempt.terms, kLinkWeights);
+    attempt.energy = energy_of(attempt.terms, weights_);
     return attempt;
   }
 
@@ -103,12 +103,13 @@ class Linker {
     }
     attempt.terms[kLinkOpen] = saturated(open_px, kOpenWidths * w_);
     attempt.terms[kLinkUnshown] = saturated(unshown_px, kUnshownWidths * w_);
-    attempt.energy = energy_of(attempt.terms, kLinkWeights);
+    attempt.energy = energy_of(attempt.terms, weights_);
   }
 
   const StrandEnd& from_;
   const StrandEnd& to_;
   const Cover& cover_;
+  const LinkTerms& weights_;
   float w_;
   float trust_;
   LinkTerms fit_{};  // what does not depend on the curve
@@ -116,13 +117,13 @@ class Linker {
 
 }  // namespace
 
-Link best_link(const StrandEnd& from, const StrandEnd& to, const Cover& cover, float scale_px,
-               float trust, float most) {
-  return Linker(from, to, cover, scale_px, trust).search(most);
+Link best_link(const StrandEnd& from, const StrandEnd& to, const Cover& cover,
+               const LinkTerms& weights, float scale_px, float trust, float most) {
+  return Linker(from, to, cover, weights, scale_px, trust).search(most);
 }
 
-float least_energy(float length_px, float scale_px) {
-  return kLinkWeights[kLinkLong] * std::log1p(length_px / (kLongWidths * scale_px));
+float least_energy(float length_px, const LinkTerms& weights, float scale_px) {
+  return weights[kLinkLong] * std::log1p(length_px / (kLongWidths * scale_px));
 }
 
 }  // namespace flowdlo::path

@@ -58,18 +58,20 @@ StopTerms stop_terms(const StrandEnd& end) {
   return terms;
 }
 
-Link link_between(int from, int to, const Strands& strands, const Cover& cover, float most) {
+Link link_between(int from, int to, const Strands& strands, const Cover& cover,
+                  const LinkTerms& weights, float most) {
   const auto shorter = static_cast<float>(
       std::min(strands.list[from / 2].points_px.size(), strands.list[to / 2].points_px.size()));
   const StrandEnd& a = strands.end(from);
   const StrandEnd& b = strands.end(to);
   const float scale_px = scale_between(a, b, strands);
   const float trust = std::min(1.0F, shorter / (kKnownWidths * scale_px));
-  return best_link(a, b, cover, scale_px, trust, most);
+  return best_link(a, b, cover, weights, scale_px, trust, most);
 }
 
 std::vector<std::vector<Bond>> make_links(const Strands& strands, const Region& region,
                                           const Frame& frame, bool several) {
+  const LinkTerms& weights = several ? kSeveralRopesLinks : kOneRopeLinks;
   const Cover cover(region, frame, strands.width_px, strands.seen);
   const std::vector<int> ends = open_ends(strands);
   std::vector<Pair> pairs;
@@ -79,7 +81,7 @@ std::vector<std::vector<Bond>> make_links(const Strands& strands, const Region& 
       const StrandEnd& a = strands.end(ends[i]);
       const StrandEnd& b = strands.end(ends[j]);
       const float apart = (a.point_px - b.point_px).norm();
-      const float least = least_energy(apart, scale_between(a, b, strands));
+      const float least = least_energy(apart, weights, scale_between(a, b, strands));
       if (several && a.leaves && b.leaves) continue;
       const float most = most_for(ends[i], ends[j], strands);
       if (least < most) pairs.push_back({ends[i], ends[j], least, most});
@@ -99,7 +101,7 @@ std::vector<std::vector<Bond>> make_links(const Strands& strands, const Region& 
   for (const Pair& pair : pairs) {
     const float most = std::min(pair.most, std::max(kept(pair.from), kept(pair.to)));
     if (pair.least >= most) continue;
-    const Link link = link_between(pair.from, pair.to, strands, cover, most);
+    const Link link = link_between(pair.from, pair.to, strands, cover, weights, most);
     if (link.energy >= most) continue;
     for (const auto& [end, other] : {std::pair{pair.from, pair.to}, {pair.to, pair.from}}) {
       auto& list = links[end];

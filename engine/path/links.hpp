@@ -17,6 +17,7 @@ namespace flowdlo::path {
 
 /// The link between two ends, whatever it costs: what the weights are fitted to.
 [[nodiscard]] Link link_between(int from, int to, const Strands& strands, const Cover& cover,
+                                const LinkTerms& weights,
                                 float most = std::numeric_limits<float>::max());
 
 /// What a path pays that ends there, and what that comes of.

@@ -207,6 +207,9 @@ class Changes {
   }
 
  private:
+  [[nodiscard]] const path::LinkTerms& weights() const {
+    return one_rope_ ? path::kOneRopeLinks : path::kSeveralRopesLinks;
+  }
   [[nodiscard]] int partner(int end) const { return partners_[static_cast<std::size_t>(end)]; }
 
   void add_stop(int end, double sign, Option& option) const {
@@ -217,7 +220,7 @@ class Changes {
     }
   }
   void add_link(int from, int to, double sign, Option& option) const {
-    const auto terms = path::link_between(from, to, strands_, cover_).terms;
+    const auto terms = path::link_between(from, to, strands_, cover_, weights()).terms;
     for (std::size_t i = 0; i < terms.size(); ++i)
       option[i] += sign * static_cast<double>(terms[i]);
   }
@@ -424,7 +427,7 @@ int main(int argc, char** argv) {
   const Quality best = quality_of(held, all);
   Weights now = Weights::Zero();
   for (std::size_t i = 0; i < path::kLinkTerms; ++i)
-    now[static_cast<Eigen::Index>(i)] = path::kLinkWeights[i];
+    now[static_cast<Eigen::Index>(i)] = path::kSeveralRopesLinks[i];
   for (std::size_t i = 0; i < path::kStopTerms; ++i)
     now[static_cast<Eigen::Index>(path::kLinkTerms + i)] = path::kStopWeights[i];
   const Quality before = quality_of(held, now);

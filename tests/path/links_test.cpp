@@ -56,7 +56,7 @@ class Linked {
   }
   [[nodiscard]] Link between(int from, int to,
                              float most = std::numeric_limits<float>::max()) const {
-    return link_between(from, to, strands_, cover_, most);
+    return link_between(from, to, strands_, cover_, kOneRopeLinks, most);
   }
 
  private:
@@ -90,7 +90,7 @@ TEST(Links, WhatTheFieldShowsBelowIsNotHeldAgainstALink) {
   const LinkTerms shown = across(crossing, 152, 168);
   EXPECT_GT(unshown[kLinkUnshown], shown[kLinkUnshown] + 0.1F);
   EXPECT_LT(shown[kLinkUnshown], 0.1F);
-  EXPECT_LT(energy_of(shown, kLinkWeights), energy_of(unshown, kLinkWeights));
+  EXPECT_LT(energy_of(shown, kOneRopeLinks), energy_of(unshown, kOneRopeLinks));
   EXPECT_LT(shown[kLinkBend], 0.5F) << "it goes straight on";
   EXPECT_LT(shown[kLinkOpen], 0.01F);
 }
