@@ -13,6 +13,10 @@ install(TARGETS flowdlo EXPORT flowdloTargets
         LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT library
                 NAMELINK_COMPONENT development
         ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT development)
+if(FLOWDLO_EMBEDS_WEIGHTS AND FLOWDLO_LIBRARY_TYPE STREQUAL "STATIC_LIBRARY")
+  install(TARGETS flowdlo_embedded_weights EXPORT flowdloTargets
+          ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT development)
+endif()
 install(DIRECTORY "${PROJECT_SOURCE_DIR}/include/flowdlo"
         DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}" COMPONENT development FILES_MATCHING PATTERN "*.hpp" PATTERN "*.h")
 install(FILES "${PROJECT_BINARY_DIR}/include/flowdlo/version.hpp"
@@ -28,7 +32,8 @@ configure_package_config_file("${PROJECT_SOURCE_DIR}/cmake/flowdloConfig.cmake.i
                               PATH_VARS FLOWDLO_INSTALL_DATADIR)
 write_basic_package_version_file("${PROJECT_BINARY_DIR}/flowdloConfigVersion.cmake"
                                  COMPATIBILITY SameMinorVersion)
-install(FILES "${PROJECT_BINARY_DIR}/flowdloConfig.cmake"
+install(FILES "${PROJECT_SOURCE_DIR}/cmake/FlowdloCopyWeights.cmake"
+              "${PROJECT_BINARY_DIR}/flowdloConfig.cmake"
               "${PROJECT_BINARY_DIR}/flowdloConfigVersion.cmake"
         DESTINATION "${FLOWDLO_INSTALL_CMAKEDIR}" COMPONENT development)
 
@@ -39,7 +44,10 @@ set(FLOWDLO_PC_REQUIRES "")
 set(FLOWDLO_PC_LIBS "")
 if(FLOWDLO_LIBRARY_TYPE STREQUAL "STATIC_LIBRARY")
   set(FLOWDLO_PC_REQUIRES "opencv4 libpng fmt")
-  set(FLOWDLO_PC_LIBS " -lpthread -ldl")
+  set(FLOWDLO_PC_LIBS " -lpthread -ldl -lstdc++")
+  if(FLOWDLO_EMBEDS_WEIGHTS)
+    set(FLOWDLO_PC_LIBS " -lflowdlo_weights${FLOWDLO_PC_LIBS}")
+  endif()
 endif()
 configure_file("${PROJECT_SOURCE_DIR}/cmake/flowdlo.pc.in" "${PROJECT_BINARY_DIR}/flowdlo.pc" @ONLY)
 install(FILES "${PROJECT_BINARY_DIR}/flowdlo.pc" DESTINATION "${FLOWDLO_INSTALL_PCDIR}"

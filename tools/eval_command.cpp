@@ -14,7 +14,6 @@
 
 #include "build_sum.hpp"
 #include "durability_choice.hpp"
-#include "estimator/weights_location.hpp"
 #include "eval/contenders.hpp"
 #include "eval/error_overlay.hpp"
 #include "eval/evaluator.hpp"
@@ -82,9 +81,7 @@ Result<void> make_out(const fs::path& out) {
 }
 
 Result<std::string> sum_of_weights(const fs::path& named) {
-  auto file = named.empty() ? estimator::default_weights() : Result<fs::path>(named);
-  if (!file) return file.error();
-  auto info = inspect_weights(*file);
+  auto info = inspect_weights(named);
   if (!info) return info.error();
   return info->sha256;
 }

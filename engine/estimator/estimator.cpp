@@ -23,7 +23,6 @@
 #include "estimator/several.hpp"
 #include "estimator/stopwatch.hpp"
 #include "estimator/tensors.hpp"
-#include "estimator/weights_location.hpp"
 #include "evidence/mask_field.hpp"
 #include "field/network.hpp"
 #include "field/strand_field.hpp"
@@ -36,6 +35,7 @@
 #include "threads/count.hpp"
 #include "threads/pool.hpp"
 #include "weights/kept_file.hpp"
+#include "weights/location.hpp"
 #include "weights/weights.hpp"
 
 namespace flowdlo {
@@ -113,13 +113,14 @@ struct FLOWDLO_HIDDEN Estimator::Impl {
 
 Result<std::unique_ptr<Estimator::Impl>> Estimator::Impl::create(const Config& wanted) {
   if (auto checked = estimator::check(wanted); !checked) return checked.error();
-  auto file = wanted.weights.empty() ? estimator::default_weights()
-                                     : Result<std::filesystem::path>(wanted.weights);
-  if (!file) return file.error();
+  const auto location = wanted.weights.empty()
+                            ? weights::default_location()
+                            : Result<weights::Location>(weights::located(wanted.weights));
+  if (!location) return location.error();
   // Opening a driver takes as long as reading the weights: side by side, where a thread is to be
   // had.
   auto choice = threads::aside(true, [&] { return estimator::choose_back_end(wanted); });
-  auto loaded = weights::load_and_keep(*file);
+  auto loaded = weights::load_and_keep(location->model);
   auto back_end = choice.get();
   if (!loaded) return loaded.error();
   const weights::Metadata metadata = loaded->weights->metadata;
@@ -129,7 +130,7 @@ Result<std::unique_ptr<Estimator::Impl>> Estimator::Impl::create(const Config& w
   auto sampler =
       flow::Sampler::create(weights, back_end->make_program, estimator::sampler_config(config));
   if (!sampler) return sampler.error();
-  auto field = estimator::open_field(config, *file);
+  auto field = estimator::open_field(config, location->field);
   if (!field) return field.error();
   auto impl = std::unique_ptr<Impl>(  // an aggregate, which Clang 14 makes by braces only
       new Impl{config, metadata, weights, back_end->name, *std::move(sampler), *std::move(field)});

@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "estimator/device_choice.hpp"
-#include "estimator/weights_location.hpp"
 #include "weights/field_weights.hpp"
 
 namespace flowdlo::estimator {
@@ -42,11 +41,12 @@ flow::WeightsSource source_of(const weights::Loaded& loaded) {
 }
 
 Result<std::optional<field::Network>> open_field(const Config& config,
-                                                 const std::filesystem::path& weights) {
+                                                 const weights::Place& beside) {
   if (config.field == FieldChoice::kOff) return std::optional<field::Network>();
-  const auto file = config.field_weights.empty() ? field_beside(weights) : config.field_weights;
-  if (file.empty()) return std::optional<field::Network>();
-  auto loaded = weights::load_field(file);
+  const auto place =
+      config.field_weights.empty() ? beside : weights::Place{config.field_weights, {}};
+  if (place.file.empty()) return std::optional<field::Network>();
+  auto loaded = weights::load_field(place);
   if (!loaded) return loaded.error();
   const auto cpu = cpu_back_end(1);
   auto network = field::Network::create(

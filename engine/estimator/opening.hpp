@@ -1,7 +1,6 @@
 // Opening: what an estimator is made of, from its configuration and the weights.
 #pragma once
 
-#include <filesystem>
 #include <optional>
 
 #include "field/network.hpp"
@@ -23,9 +22,9 @@ namespace flowdlo::estimator {
 [[nodiscard]] flow::WeightsSource source_of(const weights::Loaded& loaded);
 
 /// The network that sees strands, on one thread of the CPU: it works beside the model. None where
-/// it is off or no weights are to be had beside those of the model, `weights`. Fails as reading
-/// them does.
-[[nodiscard]] Result<std::optional<field::Network>> open_field(
-    const Config& config, const std::filesystem::path& weights);
+/// it is off or has no weights: neither the configuration's nor `beside`, those that belong to the
+/// model. Fails as reading them does.
+[[nodiscard]] Result<std::optional<field::Network>> open_field(const Config& config,
+                                                               const weights::Place& beside);
 
 }  // namespace flowdlo::estimator

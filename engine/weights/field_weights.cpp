@@ -87,6 +87,10 @@ Result<FieldWeights> load_field(const std::filesystem::path& file) {
   return parse_field(bytes->view(), file);
 }
 
+Result<FieldWeights> load_field(const Place& place) {
+  return place.bytes.empty() ? load_field(place.file) : parse_field(place.bytes, place.file);
+}
+
 Result<FieldWeights> parse_field(std::span<const std::uint8_t> bytes,
                                  const std::filesystem::path& file) {
   std::vector<std::string> faults;

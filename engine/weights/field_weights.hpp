@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "flowdlo/result.hpp"
+#include "weights/location.hpp"
 #include "weights/weights.hpp"
 
 namespace flowdlo::weights {
@@ -44,6 +45,7 @@ struct FieldWeights {
 
 /// Fails with kIo or kBadWeights, listing every mismatch.
 [[nodiscard]] Result<FieldWeights> load_field(const std::filesystem::path& file);
+[[nodiscard]] Result<FieldWeights> load_field(const Place& place);
 
 /// The same of bytes in memory; `file` is their name.
 [[nodiscard]] Result<FieldWeights> parse_field(std::span<const std::uint8_t> bytes,

@@ -2,13 +2,21 @@
 #include "flowdlo/weights.hpp"
 #include "guard/guarded.hpp"
 #include "weights/fdw.hpp"
+#include "weights/location.hpp"
 #include "weights/metadata.hpp"
 
 namespace flowdlo {
 namespace {
 
+Result<weights::FdwFile> shipped() {
+  const auto location = weights::default_location();
+  if (!location) return location.error();
+  const auto& [file, bytes] = location->model;
+  return bytes.empty() ? weights::read_fdw(file) : weights::parse_fdw(bytes, file);
+}
+
 Result<WeightsInfo> inspected(const std::filesystem::path& file) {
-  auto read = weights::read_fdw(file);
+  auto read = file.empty() ? shipped() : weights::read_fdw(file);
   if (!read) return read.error();
   WeightsInfo info;
   info.metadata = weights::to_fields(read->weights.metadata);

@@ -2,10 +2,12 @@
 // they take decoded, and makes them anew without touching the disk.
 #pragma once
 
-#include <filesystem>
+#include <cstdint>
 #include <memory>
+#include <span>
 
 #include "weights/file.hpp"
+#include "weights/location.hpp"
 #include "weights/weights.hpp"
 
 namespace flowdlo::weights {
@@ -18,11 +20,12 @@ class KeptFile {
   [[nodiscard]] Weights decoded() const;
 
  private:
-  friend Result<Loaded> load_and_keep(const std::filesystem::path& file);
-  KeptFile(files::FileBytes bytes, Metadata metadata)
-      : bytes_(std::move(bytes)), metadata_(std::move(metadata)) {}
+  friend Result<Loaded> load_and_keep(const Place& place);
+  KeptFile(files::FileBytes read, std::span<const std::uint8_t> bytes, Metadata metadata)
+      : read_(std::move(read)), bytes_(bytes), metadata_(std::move(metadata)) {}
 
-  files::FileBytes bytes_;
+  files::FileBytes read_;                ///< empty where the bytes are the library's own
+  std::span<const std::uint8_t> bytes_;  ///< all of the file
   Metadata metadata_;
 };
 
@@ -32,7 +35,7 @@ struct Loaded {
   std::shared_ptr<const KeptFile> file;
 };
 
-/// As `load`, and keeps the file's bytes.
-[[nodiscard]] Result<Loaded> load_and_keep(const std::filesystem::path& file);
+/// As `load`, and keeps the file's bytes; those within the library stay where they are.
+[[nodiscard]] Result<Loaded> load_and_keep(const Place& place);
 
 }  // namespace flowdlo::weights

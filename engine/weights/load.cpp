@@ -110,7 +110,7 @@ std::vector<StoredTensor> stored_tensors(const fdw::Weights& root) {
 
 Weights KeptFile::decoded() const {
   std::vector<std::string> faults;  // none: they were looked for when the file was read
-  const auto stored = stored_tensors(*fdw::GetWeights(bytes_.data.get()));
+  const auto stored = stored_tensors(*fdw::GetWeights(bytes_.data()));
   const auto matched = match(stored, manifest(metadata_.variant), kStorable, faults);
   return {metadata_, decode(matched, manifest(metadata_.variant), faults)};
 }
@@ -148,13 +148,19 @@ Result<FdwFile> read_fdw(const std::filesystem::path& file) {
   return parse_fdw(bytes->view(), file);
 }
 
-Result<Loaded> load_and_keep(const std::filesystem::path& file) {
-  auto bytes = read_file(file);
-  if (!bytes) return bytes.error();
-  auto read = parse_fdw(bytes->view(), file);
-  if (!read) return read.error();
-  auto weights = std::make_shared<const Weights>(std::move(read->weights));
-  KeptFile kept(*std::move(bytes), weights->metadata);
+Result<Loaded> load_and_keep(const Place& place) {
+  files::FileBytes read;
+  auto bytes = place.bytes;
+  if (bytes.empty()) {
+    auto content = read_file(place.file);
+    if (!content) return content.error();
+    read = *std::move(content);
+    bytes = read.view();
+  }
+  auto parsed = parse_fdw(bytes, place.file);
+  if (!parsed) return parsed.error();
+  auto weights = std::make_shared<const Weights>(std::move(parsed->weights));
+  KeptFile kept(std::move(read), bytes, weights->metadata);
   return Loaded{std::move(weights), std::make_shared<const KeptFile>(std::move(kept))};
 }
 

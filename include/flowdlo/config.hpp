@@ -24,8 +24,9 @@ enum class GateChoice {
 
 /// Whether a small network sees the strands where a mask leaves doubt.
 enum class FieldChoice {
-  kBeside,  ///< where its weights are: Config::field_weights, or `field.safetensors` in the folder
-            ///< of Config::weights; not with the thesis' gate, which knows no doubt
+  kBeside,  ///< where its weights are: Config::field_weights, or the `field.safetensors` that
+            ///< belongs to Config::weights: in its folder, or within the library; not with the
+            ///< thesis' gate, which knows no doubt
   kOff,     ///< the mask alone is read
 };
 
@@ -39,7 +40,9 @@ enum class Quality {
 inline constexpr int kMostRopes = 32;
 
 struct Config {
-  /// A .fdw file. Empty: `share/flowdlo/flowdlo.fdw` beside the library's installation.
+  /// A .fdw file. Empty: the one that FLOWDLO_WEIGHTS in the environment names; else the one within
+  /// the library, where it was built with it; else `share/flowdlo/flowdlo.fdw` beside the library's
+  /// installation or the program.
   std::filesystem::path weights;
 
   /// "auto": the best real GPU whose self-test passes, otherwise the CPU back end, never a CPU

@@ -64,7 +64,7 @@ enum { FLOWDLO_FIELD_BESIDE = 0, FLOWDLO_FIELD_OFF = 1 };
 /* flowdlo::Config of <flowdlo/config.hpp>, which says more of each field; the defaults are its. */
 typedef struct flowdlo_config {
   size_t struct_size;        /* bytes; flowdlo_config_init */
-  const char* weights;       /* a .fdw file; NULL or "": the one installed beside the library */
+  const char* weights;       /* a .fdw file; NULL or "": the one that comes with the library */
   const char* device;        /* NULL or "auto", "cpu", "vulkan", part of a name, or a UUID */
   const char* field_weights; /* .safetensors; NULL or "": beside the weights, if there */
   uint64_t seed;             /* same seed, frame and device: the same bits */

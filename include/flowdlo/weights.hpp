@@ -25,7 +25,8 @@ struct WeightsInfo {
   std::string sha256;  ///< of the tensors' bytes, hexadecimal, verified
 };
 
-/// Reads and verifies `file`. Fails with kIo or kBadWeights, listing every mismatch.
+/// Reads and verifies `file`; empty: the one that Config::weights left empty stands for. Fails with
+/// kIo or kBadWeights, listing every mismatch.
 [[nodiscard]] FLOWDLO_EXPORT Result<WeightsInfo> inspect_weights(const std::filesystem::path& file);
 
 /// .fdw to .safetensors, metadata included. Fails with kIo or kBadWeights; no partial file stays.

@@ -30,7 +30,8 @@ class Estimator:
     Every argument may be left out or None, which stands for the library's default
     (`flowdlo.default_config()` lists them):
 
-    weights: a .fdw file; by default the one that comes with the library.
+    weights: a .fdw file; by default the one that FLOWDLO_WEIGHTS in the environment names, or else the
+        one that comes with the library.
     device: "auto" takes the best real GPU whose self-test passes, otherwise the CPU; "cpu";
         "vulkan", any Vulkan device; or part of a device's name, or its UUID.
     quality: "full", or "fast", which takes the place of the next two.

@@ -5,9 +5,9 @@
 #include <fstream>
 
 #include "../frame/temporary_folder.hpp"
-#include "estimator/weights_location.hpp"
 #include "flowdlo/estimator.hpp"
 #include "support/wave_frame.hpp"
+#include "weights/location.hpp"
 
 namespace flowdlo {
 namespace {
@@ -19,9 +19,9 @@ Config small(const fs::path& weights) {
 }
 
 TEST(FieldChoice, ItsWeightsLieBesideTheModels) {
-  EXPECT_EQ(estimator::field_beside(FLOWDLO_DEFAULT_WEIGHTS),
+  EXPECT_EQ(weights::located(FLOWDLO_DEFAULT_WEIGHTS).field.file,
             fs::path(FLOWDLO_DEFAULT_WEIGHTS).parent_path() / "field.safetensors");
-  EXPECT_TRUE(estimator::field_beside(FLOWDLO_WEIGHTS).empty());
+  EXPECT_TRUE(weights::located(FLOWDLO_WEIGHTS).field.file.empty());
   EXPECT_TRUE(Estimator::create(small(FLOWDLO_DEFAULT_WEIGHTS)));
   EXPECT_TRUE(Estimator::create(small(FLOWDLO_WEIGHTS)));
 }

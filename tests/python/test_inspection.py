@@ -59,7 +59,7 @@ def test_devices_are_not_tried_unless_asked():
 
 
 def test_weights_can_be_looked_into():
-    file = os.environ["FLOWDLO_WEIGHTS"]
+    file = os.environ["FLOWDLO_DEFAULT_WEIGHTS"]
     info = flowdlo.inspect_weights(file)
     assert info.parameters == sum(int(np.prod(tensor.shape)) for tensor in info.tensors)
     assert {tensor.dtype for tensor in info.tensors} <= {"f32", "f16"}

@@ -23,7 +23,7 @@ TEST(KeptFile, DecodesToWhatWasLoadedWhenTheFileIsGone) {
     const TemporaryFolder folder;
     ASSERT_TRUE(save(seeded({}, 3), folder / "model.fdw", type));
     const auto loaded = load(folder / "model.fdw");
-    const auto kept = load_and_keep(folder / "model.fdw");
+    const auto kept = load_and_keep({folder / "model.fdw", {}});
     ASSERT_TRUE(loaded && kept);
 
     std::filesystem::remove(folder / "model.fdw");
@@ -35,7 +35,7 @@ TEST(KeptFile, DecodesToWhatWasLoadedWhenTheFileIsGone) {
 
 TEST(KeptFile, RefusesWhatLoadRefuses) {
   const TemporaryFolder folder;
-  EXPECT_FALSE(load_and_keep(folder / "none.fdw"));
+  EXPECT_FALSE(load_and_keep({folder / "none.fdw", {}}));
 }
 
 }  // namespace
