@@ -1,13 +1,12 @@
 #include "weights/location.hpp"
 
-#include <dlfcn.h>
-#include <sys/stat.h>
-
 #include <algorithm>
+#include <array>
 #include <cstdlib>
 #include <string>
 #include <system_error>
 
+#include "files/own_file.hpp"
 #include "files/shown_name.hpp"
 
 namespace flowdlo::weights {
@@ -25,34 +24,8 @@ bool is_file(const fs::path& file) {
 bool anybody_writes(const fs::path& folder) {
   const fs::path share = folder / "share";
   const fs::path ours = share / "flowdlo";
-  for (const fs::path& path : {folder, share, ours, ours / "flowdlo.fdw"}) {
-    struct stat status {};
-    if (::stat(path.c_str(), &status) == 0 && (status.st_mode & S_IWOTH) != 0) return true;
-  }
-  return false;
-}
-
-/// The program's folder and three above it, for programs in bin/, lib/ and lib/<triplet>/.
-std::vector<fs::path> folders_around(const fs::path& program) {
-  constexpr int kAbove = 3;
-  std::vector<fs::path> folders;
-  fs::path folder = program.parent_path();
-  for (int level = 0; level <= kAbove && folder.has_relative_path(); ++level) {
-    folders.push_back(folder);
-    folder = folder.parent_path();
-  }
-  return folders;
-}
-
-/// The file that this function was loaded from: the shared library, or the program.
-fs::path own_file(const fs::path& program) {
-  Dl_info info{};
-  if (dladdr(reinterpret_cast<const void*>(&own_file), &info) == 0 || info.dli_fname == nullptr) {
-    return program;
-  }
-  std::error_code error;
-  auto file = fs::canonical(info.dli_fname, error);
-  return error ? program : file;  // a program's dli_fname may be relative to a past directory
+  const std::array way = {folder, share, ours, ours / "flowdlo.fdw"};
+  return std::any_of(way.begin(), way.end(), files::anybody_writes);
 }
 
 }  // namespace
@@ -78,7 +51,7 @@ Result<Location> default_location(const Surroundings& surroundings) {
   std::vector<fs::path> seen;
   std::string looked;
   for (const fs::path& program : surroundings.programs) {
-    for (const fs::path& folder : folders_around(program)) {
+    for (const fs::path& folder : files::folders_around(program)) {
       if (std::find(seen.begin(), seen.end(), folder) != seen.end()) continue;
       seen.push_back(folder);
       const auto candidate = folder / "share" / "flowdlo" / "flowdlo.fdw";
@@ -95,10 +68,10 @@ Result<Location> default_location(const Surroundings& surroundings) {
 }
 
 Result<Location> default_location() {
-  std::error_code error;
-  const fs::path program = fs::read_symlink("/proc/self/exe", error);
+  const fs::path program = files::running_program();
   // A program with more rights than its caller does not take the caller's word for its weights.
-  return default_location({::secure_getenv(kVariable), embedded(), {own_file(program), program}});
+  return default_location(
+      {::secure_getenv(kVariable), embedded(), {files::own_file(program), program}});
 }
 
 }  // namespace flowdlo::weights
