@@ -64,6 +64,7 @@ std::vector<float> in_pairs(const std::vector<std::uint16_t>& halves) {
 
 std::vector<float> pack_panels(std::span<const float> weight, int out, int in, int panel) {
   constexpr int kBlock = 8;  // columns read side by side: each stays in the cache
+  assert(out % panel == 0);
   std::vector<float> packed(weight.size());
   for (int first = 0; first < out; first += kBlock) {
     const std::size_t start = static_cast<std::size_t>(first / panel) * (in / 4) * panel;

@@ -15,6 +15,9 @@ namespace {
 constexpr int kShortestBuildTimeout_ms = 60000;  // the first dispatch of a kernel may compile it
 constexpr int kFarewell_ms = 5000;               // a destructor's patience with a hung device
 constexpr float kWarmUpPoints = 2 * ops::kVisibleRows;
+/// Where no kernel for dense layers is right, what is recorded is never built; its weights are laid
+/// out all the same, in a way that fits every device.
+constexpr GemmChoice kNeverBuilt{GemmFamily::kTile, 32, 32, 16};
 
 }  // namespace
 
@@ -30,11 +33,8 @@ Program::~Program() {
 void Program::choose_gemm_once() {
   if (std::exchange(chosen_, true)) return;
   const auto choice = choose_gemm(work_->device, options_);
-  if (choice) {
-    work_->plan.choose(*choice);
-  } else {
-    lost_ = choice.error();
-  }
+  if (!choice) lost_ = choice.error();
+  work_->plan.choose(choice ? *choice : kNeverBuilt);
 }
 
 ops::LinearLayer Program::layer(std::string_view name, int out, int in,
