@@ -13,6 +13,9 @@ install(TARGETS flowdlo EXPORT flowdloTargets
         LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT library
                 NAMELINK_COMPONENT development
         ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT development)
+if(TARGET flowdlo_probe)  # libexec/ by that name: the library looks for it from its own place
+  install(TARGETS flowdlo_probe RUNTIME DESTINATION libexec/flowdlo COMPONENT library)
+endif()
 if(FLOWDLO_EMBEDS_WEIGHTS AND FLOWDLO_LIBRARY_TYPE STREQUAL "STATIC_LIBRARY")
   install(TARGETS flowdlo_embedded_weights EXPORT flowdloTargets
           ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT development)

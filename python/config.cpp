@@ -90,6 +90,7 @@ void each_field(Config& config, const Visit& visit) {
   visit("max_height", config.max_height);
   visit("device_timeout_ms", config.device_timeout_ms);
   visit("validation", config.validation);
+  visit("probe", config.probe);
 }
 
 struct Reader {

@@ -220,8 +220,8 @@ PYBIND11_MODULE(_core, module) {
       return with_mask ? load_frame_folder(path) : load_frame_folder_without_mask(path);
     })));
   });
-  module.def("survey_devices", [](bool self_test) {
-    return dict_of(without_lock([&] { return survey_devices(self_test); }));
+  module.def("survey_devices", [](bool self_test, bool probe) {
+    return dict_of(without_lock([&] { return survey_devices(self_test, probe); }));
   });
   module.def("inspect_weights", [](const py::bytes& file) {
     const std::string path = file;

@@ -168,8 +168,15 @@ py::dict dict_of(const DeviceSurvey& survey) {
                             "subgroup_size"_a = device.subgroup_size, "lacks"_a = py::tuple(lacks),
                             "self_test_passed"_a = passed, "self_test"_a = text(device.self_test)));
   }
-  return py::dict("vulkan"_a = devices, "loader"_a = text(survey.loader),
-                  "advice"_a = text(survey.advice), "auto_choice"_a = text(survey.auto_choice));
+  py::list drivers;
+  for (const DriverReport& driver : survey.drivers) {
+    drivers.append(py::dict("manifest"_a = text(driver.manifest.string()), "used"_a = driver.used,
+                            "devices"_a = driver.devices, "verdict"_a = text(driver.verdict),
+                            "remembered"_a = driver.remembered));
+  }
+  return py::dict("drivers"_a = drivers, "unseen"_a = text(survey.unseen), "vulkan"_a = devices,
+                  "loader"_a = text(survey.loader), "advice"_a = text(survey.advice),
+                  "auto_choice"_a = text(survey.auto_choice));
 }
 
 py::dict dict_of(const WeightsInfo& info) {

@@ -54,8 +54,19 @@ void print_device(const DeviceReport& device) {
   tell("\n");
 }
 
+/// A line for each driver: what it did when it was asked in a process of its own.
+void print_drivers(const DeviceSurvey& survey) {
+  if (!survey.unseen.empty()) tell("Drivers are loaded unseen: {}\n", survey.unseen);
+  for (const auto& driver : survey.drivers) {
+    tell("{}{}: {}{}\n", driver.used ? "" : "LEFT ALONE ", files::shown(driver.manifest),
+         driver.verdict, driver.remembered ? " (remembered)" : "");
+  }
+  if (!survey.unseen.empty() || !survey.drivers.empty()) tell("\n");
+}
+
 void print_table(const DeviceSurvey& survey) {
   tell("Vulkan loader: {}\n\n", survey.loader);
+  print_drivers(survey);
   for (const auto& device : survey.vulkan) print_device(device);
   if (!survey.advice.empty()) tell("No Vulkan device to use.\n  {}\n\n", survey.advice);
   tell("cpu\n  {:<10} built in, always there\n\n", "kind");
@@ -76,10 +87,17 @@ void print_json(const DeviceSurvey& survey) {
                        {"self_test_passed", device.self_test_passed},
                        {"self_test", device.self_test}});
   }
-  const Json json = {{"loader", survey.loader},
-                     {"vulkan", devices},
-                     {"advice", survey.advice},
-                     {"auto_choice", survey.auto_choice}};
+  Json drivers = Json::array();
+  for (const auto& driver : survey.drivers) {
+    drivers.push_back({{"manifest", driver.manifest.string()},
+                       {"used", driver.used},
+                       {"devices", driver.devices},
+                       {"verdict", driver.verdict},
+                       {"remembered", driver.remembered}});
+  }
+  const Json json = {{"loader", survey.loader}, {"drivers", drivers},
+                     {"unseen", survey.unseen}, {"vulkan", devices},
+                     {"advice", survey.advice}, {"auto_choice", survey.auto_choice}};
   tell("{}\n", json.dump(2, ' ', false, Json::error_handler_t::replace));
 }
 

@@ -63,7 +63,9 @@ flowdlo_config default_config() {
           .device_timeout_ms = defaults.device_timeout_ms,
           .validation = defaults.validation ? 1 : 0,
           .reserved = 0,
-          .budget_ms = defaults.budget_ms};
+          .budget_ms = defaults.budget_ms,
+          .probe = defaults.probe ? 1 : 0,
+          .reserved_2 = 0};
 }
 
 Config config_of(const flowdlo_config& given) {
@@ -85,6 +87,7 @@ Config config_of(const flowdlo_config& given) {
   config.device_timeout_ms = given.device_timeout_ms;
   config.validation = given.validation != 0;
   config.budget_ms = given.budget_ms;
+  config.probe = given.probe != 0;
   return config;
 }
 
@@ -144,11 +147,13 @@ Result<void> create(const flowdlo_config* given, flowdlo_estimator** out) {
   if (given != nullptr) {
     if (const auto fits = check_size(given); !fits) return fits.error();
     config = read(given, config);
-    if (config.reserved != 0) {
+    for (const auto& [name, value] :
+         {std::pair{"reserved", config.reserved}, std::pair{"reserved_2", config.reserved_2}}) {
+      if (value == 0) continue;
       return Error{ErrorCode::kBadInput,
-                   fmt::format("flowdlo_config.reserved: expected 0, got {}; fill the struct with "
+                   fmt::format("flowdlo_config.{}: expected 0, got {}; fill the struct with "
                                "flowdlo_config_init before use",
-                               config.reserved)};
+                               name, value)};
     }
   }
   auto estimator = Estimator::create(config_of(config));

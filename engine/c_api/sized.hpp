@@ -22,7 +22,7 @@ template <>
 struct Kind<flowdlo_config> {
   static constexpr const char* kName = "flowdlo_config";
   static constexpr std::size_t kFirstBytes =
-      offsetof(flowdlo_config, budget_ms) + sizeof(flowdlo_config::budget_ms);
+      offsetof(flowdlo_config, reserved_2) + sizeof(flowdlo_config::reserved_2);
   static_assert(sizeof(flowdlo_config) == kFirstBytes);
 };
 

@@ -35,9 +35,21 @@ int timeout_ms(const Config& config, DeviceKind kind) {
   return kUsual_ms / kUsualWork * work * (kind == DeviceKind::kCpu ? kCpuDriverFactor : 1);
 }
 
+/// How drivers are asked before they are loaded. FLOWDLO_PROBE_MS: what one may take.
+vulkan::Probing probing_of(const Config& config) {
+  vulkan::Probing probing{.on = config.probe, .memory = cache_folder(std::getenv)};
+  constexpr long kLongest_ms = 3600000;
+  const char* const limit = std::getenv("FLOWDLO_PROBE_MS");
+  const long wanted_ms = limit != nullptr ? std::strtol(limit, nullptr, 10) : 0;
+  if (wanted_ms > 0) probing.limit_ms = static_cast<int>(std::min(wanted_ms, kLongest_ms));
+  return probing;
+}
+
 Result<BackEnd> open_vulkan(const Config& config, const std::string& wanted) {
-  auto opened = vulkan::open_device(
-      {.wanted = wanted, .allow_cpu_driver = true, .validation = config.validation});
+  auto opened = vulkan::open_device({.wanted = wanted,
+                                     .allow_cpu_driver = true,
+                                     .validation = config.validation,
+                                     .probing = probing_of(config)});
   if (!opened) return opened.error();
   const auto device = *opened;
   const DeviceReport& report = vulkan::report(*device);
@@ -60,7 +72,7 @@ std::vector<DeviceReport> real_gpus(std::vector<DeviceReport> reports) {
 }
 
 BackEnd choose_automatically(const Config& config) {
-  for (const DeviceReport& report : real_gpus(vulkan::survey().devices)) {
+  for (const DeviceReport& report : real_gpus(vulkan::survey(probing_of(config)).devices)) {
     auto back_end = open_vulkan(config, report.uuid);
     if (back_end && self_test(back_end->make_program).passed) return *back_end;
   }
@@ -96,17 +108,21 @@ Result<BackEnd> choose_back_end(const Config& config) {
 namespace flowdlo {
 namespace {
 
-DeviceSurvey surveyed(bool self_test) {
+DeviceSurvey surveyed(bool self_test, bool probe) {
   DeviceSurvey survey;
 #ifdef FLOWDLO_WITH_VULKAN
-  vulkan::Survey found = vulkan::survey();
+  Config config;
+  config.probe = probe;
+  vulkan::Survey found = vulkan::survey(estimator::probing_of(config));
+  survey.drivers = std::move(found.probed.drivers);
+  survey.unseen = std::move(found.probed.unseen);
   survey.vulkan = std::move(found.devices);
   survey.loader = std::move(found.loader);
   survey.advice = std::move(found.advice);
   for (DeviceReport& report : survey.vulkan) {
     if (!self_test || !report.lacks.empty()) continue;
     report.self_test_run = true;
-    const auto back_end = estimator::open_vulkan(Config{}, report.uuid);
+    const auto back_end = estimator::open_vulkan(config, report.uuid);
     const estimator::Verdict verdict = back_end
                                            ? estimator::self_test(back_end->make_program)
                                            : estimator::Verdict{false, back_end.error().message};
@@ -121,6 +137,7 @@ DeviceSurvey surveyed(bool self_test) {
   }
 #else
   (void)self_test;
+  (void)probe;
   survey.loader = "none";
   survey.advice = "this library was built without Vulkan; build it with FLOWDLO_WITH_VULKAN=ON";
   survey.auto_choice = "cpu";
@@ -130,11 +147,13 @@ DeviceSurvey surveyed(bool self_test) {
 
 }  // namespace
 
-DeviceSurvey survey_devices(bool self_test) {
+DeviceSurvey survey_devices(bool self_test, bool probe) {
   try {
-    return surveyed(self_test);
+    return surveyed(self_test, probe);
   } catch (const std::exception&) {
-    return {.vulkan = {},
+    return {.drivers = {},
+            .unseen = {},
+            .vulkan = {},
             .loader = guard::caught("survey_devices").message,
             .advice = {},
             .auto_choice = "cpu"};  // needs no Vulkan, and no memory to be said

@@ -47,6 +47,14 @@ Error no_device() {
                       overrides(), kDrivers, kWithout)};
 }
 
+Error only_bad_drivers(std::string_view bad) {
+  return {ErrorCode::kNoDevice,
+          fmt::format("Vulkan: expected a driver with a device, got only drivers that are left "
+                      "alone: {}; update or remove them, install the one that fits your GPU ({}), "
+                      "{}",
+                      bad, kDrivers, kWithout)};
+}
+
 Error none_usable(std::string_view objections) {
   return {ErrorCode::kNoDevice,
           fmt::format("no usable Vulkan device: {}; update the driver of the one you want ({}), {}",

@@ -13,6 +13,8 @@ namespace flowdlo::vulkan {
 [[nodiscard]] Error no_driver();
 /// There are drivers, and none of them found a device.
 [[nodiscard]] Error no_device();
+/// There are drivers, and those with a device crash or hang; `bad`: what each did.
+[[nodiscard]] Error only_bad_drivers(std::string_view bad);
 /// There are devices, and none can be taken; `objections`: what speaks against each.
 [[nodiscard]] Error none_usable(std::string_view objections);
 

@@ -4,8 +4,11 @@
 
 #include <algorithm>
 #include <cctype>
+#include <optional>
+#include <utility>
 
 #include "vulkan/absence.hpp"
+#include "vulkan/open_drivers.hpp"
 #include "vulkan/program.hpp"
 
 namespace flowdlo::vulkan {
@@ -48,13 +51,15 @@ std::string objection(const PhysicalDevice& device, const Selection& selection) 
   return {};
 }
 
-Error refusal(const std::vector<PhysicalDevice>& devices, const Selection& selection) {
+Error refusal(const std::vector<PhysicalDevice>& devices, const Selection& selection,
+              const Probed& probed) {
   if (devices.empty()) return no_device();
   std::string text;
   for (const PhysicalDevice& device : devices) {
     text += fmt::format("{}\"{}\": {}", text.empty() ? "" : "; ", device.report.name,
                         objection(device, selection));
   }
+  if (probed.any_bad()) text += "; left alone: " + probed.bad();
   return none_usable(text);
 }
 
@@ -76,37 +81,48 @@ int preference(DeviceKind kind) {
   return 4;
 }
 
-Survey survey() {
-  Survey result;
-  const auto loader = Loader::open();
-  if (loader) result.loader = (*loader)->version();
-  const auto instance = Instance::create(false);
-  if (!instance) {
-    result.advice = instance.error().message;
+Survey survey(const Probing& probing) {
+  OpenDrivers opened = open_drivers(/*validation=*/false, probing);
+  Survey result{.devices = {},
+                .loader = std::move(opened.loader),
+                .advice = {},
+                .probed = std::move(opened.probed)};
+  if (opened.failure) {
+    result.advice = opened.failure->message;
     return result;
   }
-  const std::vector<PhysicalDevice> devices = physical_devices(**instance);
+  std::vector<PhysicalDevice> devices;
+  for (const auto& instance : opened.instances) {
+    for (PhysicalDevice& device : physical_devices(*instance)) devices.push_back(std::move(device));
+  }
   bool usable = false;
   for (const PhysicalDevice& device : devices) {
     usable = usable || objection(device, Selection{}).empty();
     result.devices.push_back(device.report);
   }
-  if (!usable) result.advice = refusal(devices, Selection{}).message;
+  if (!usable) result.advice = refusal(devices, Selection{}, result.probed).message;
   return result;
 }
 
 Result<std::shared_ptr<Device>> open_device(const Selection& selection) {
-  auto instance = Instance::create(selection.validation);
-  if (!instance) return instance.error();
-  const std::vector<PhysicalDevice> devices = physical_devices(**instance);
-  const PhysicalDevice* best = nullptr;
-  for (const PhysicalDevice& device : devices) {
-    if (!objection(device, selection).empty()) continue;
-    if (best == nullptr || preference(device.report.kind) < preference(best->report.kind))
-      best = &device;
+  OpenDrivers opened = open_drivers(selection.validation, selection.probing);
+  if (opened.failure) return *opened.failure;
+  std::vector<PhysicalDevice> devices;
+  std::vector<std::size_t> owners;  // of each device the instance
+  for (std::size_t i = 0; i < opened.instances.size(); ++i) {
+    for (PhysicalDevice& device : physical_devices(*opened.instances[i])) {
+      devices.push_back(std::move(device));
+      owners.push_back(i);
+    }
   }
-  if (best == nullptr) return refusal(devices, selection);
-  return Device::open(*std::move(instance), *best);
+  std::optional<std::size_t> best;
+  for (std::size_t i = 0; i < devices.size(); ++i) {
+    if (!objection(devices[i], selection).empty()) continue;
+    const auto rank = [&](std::size_t which) { return preference(devices[which].report.kind); };
+    if (!best || rank(i) < rank(*best)) best = i;
+  }
+  if (!best) return refusal(devices, selection, opened.probed);
+  return Device::open(std::move(opened.instances[owners[*best]]), devices[*best]);
 }
 
 const DeviceReport& report(const Device& device) { return device.facts().report; }

@@ -15,6 +15,7 @@
 #include "flowdlo/result.hpp"
 #include "ops/program.hpp"
 #include "vulkan/gemm_choice.hpp"
+#include "vulkan/probe.hpp"
 
 namespace flowdlo::vulkan {
 
@@ -26,16 +27,18 @@ struct Selection {
   std::string wanted = "vulkan";
   bool allow_cpu_driver = true;  ///< false: lavapipe, SwiftShader and the like are passed over
   bool validation = false;       ///< core and synchronization validation, where the layer is there
+  Probing probing{};
 };
 
 struct Survey {
-  std::vector<DeviceReport> devices;  ///< in the loader's order; the self-test fields are empty
+  std::vector<DeviceReport> devices;  ///< in the drivers' order; the self-test fields are empty
   std::string loader = "none";        ///< version of the Vulkan loader
   std::string advice;  ///< where no device is usable: why, and what to install; otherwise empty
+  Probed probed;
 };
 
 /// Every Vulkan device with what it lacks. Never fails: no Vulkan, no devices.
-[[nodiscard]] Survey survey();
+[[nodiscard]] Survey survey(const Probing& probing = {});
 
 /// Order of preference, 0 first: discrete, integrated, virtual GPUs, then others, CPU drivers last.
 [[nodiscard]] int preference(DeviceKind kind);

@@ -83,12 +83,9 @@ Instance::~Instance() {
   }
 }
 
-Result<std::unique_ptr<Instance>> Instance::create(bool validation) {
-  auto loader = Loader::open();
-  if (!loader) return loader.error();
-  std::unique_ptr<Instance> instance(new Instance(*loader));
-
-  const bool layered = validation && has_validation_layer(**loader);
+Result<std::unique_ptr<Instance>> Instance::create(std::shared_ptr<const Loader> loader,
+                                                   bool validation) {
+  const bool layered = validation && has_validation_layer(*loader);
   const std::array extensions{VK_EXT_DEBUG_UTILS_EXTENSION_NAME,
                               VK_EXT_VALIDATION_FEATURES_EXTENSION_NAME};
   const VkValidationFeatureEnableEXT synchronization =
@@ -116,11 +113,12 @@ Result<std::unique_ptr<Instance>> Instance::create(bool validation) {
       .enabledExtensionCount = layered ? static_cast<std::uint32_t>(extensions.size()) : 0U,
       .ppEnabledExtensionNames = extensions.data()};
   const auto create =
-      reinterpret_cast<PFN_vkCreateInstance>((*loader)->find(VK_NULL_HANDLE, "vkCreateInstance"));
+      reinterpret_cast<PFN_vkCreateInstance>(loader->find(VK_NULL_HANDLE, "vkCreateInstance"));
   if (create == nullptr) {
     return Error{ErrorCode::kNoDevice,
                  "Vulkan loader: expected vkCreateInstance, found none; update libvulkan1"};
   }
+  std::unique_ptr<Instance> instance(new Instance(std::move(loader)));
   const VkResult result = create(&info, nullptr, &instance->handle_);
   if (result == VK_ERROR_INCOMPATIBLE_DRIVER) return no_driver();
   const auto created = check(result, "vkCreateInstance", kNoDeviceYet);

@@ -33,7 +33,8 @@ class Instance {
  public:
   /// With `validation`, the Khronos layer checks core and synchronization rules where it is
   /// installed. Fails with kNoDevice.
-  [[nodiscard]] static Result<std::unique_ptr<Instance>> create(bool validation);
+  [[nodiscard]] static Result<std::unique_ptr<Instance>> create(
+      std::shared_ptr<const Loader> loader, bool validation);
 
   [[nodiscard]] const InstanceTable& api() const { return api_; }
   [[nodiscard]] VkInstance handle() const { return handle_; }

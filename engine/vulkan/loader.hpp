@@ -1,4 +1,5 @@
-// Loader: the system's Vulkan loader, opened at run time; nothing links to it.
+// Loader: the system's Vulkan loader, opened at run time; nothing links to it. Or one driver in its
+// place, where the loader would bring in others as well.
 #pragma once
 
 #include <cstdint>
@@ -15,10 +16,15 @@ class Loader {
   /// Fails with kNoDevice where there is no loader, or one older than Vulkan 1.1.
   [[nodiscard]] static Result<std::shared_ptr<const Loader>> open();
 
+  /// One driver without the loader, and so without layers. `library`: as dlopen() takes it. Fails
+  /// with kNoDevice where it is none, or one that only loaders of 2016 know.
+  [[nodiscard]] static Result<std::shared_ptr<const Loader>> open_driver(
+      const std::string& library);
+
   [[nodiscard]] PFN_vkVoidFunction find(VkInstance instance, const char* name) const {
     return get_instance_proc_addr_(instance, name);
   }
-  /// "1.3.239"
+  /// "1.3.239"; of a driver: empty
   [[nodiscard]] const std::string& version() const { return version_; }
 
   Loader(const Loader&) = delete;

@@ -80,6 +80,11 @@ struct Config {
   /// steps and in proportion beyond, six times that on a CPU driver.
   int device_timeout_ms = 0;
   bool validation = false;  ///< Vulkan's validation layers, where installed; slow
+
+  /// Before the first Vulkan driver is loaded, each is asked for its devices in a process of its
+  /// own; one that crashes or hangs there is not loaded. What is found is kept in the cache folder.
+  /// false: drivers are loaded unseen, as they are where the program for it is not installed.
+  bool probe = true;
 };
 
 }  // namespace flowdlo

@@ -1,6 +1,7 @@
 // Devices: what this machine offers, what each device lacks, and which one "auto" takes.
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -23,15 +24,28 @@ struct DeviceReport {
   std::string self_test;  ///< verdict in words, with the largest difference seen
 };
 
+/// One Vulkan driver, as it behaved when it was asked in a process of its own.
+struct DriverReport {
+  std::filesystem::path manifest;  ///< the JSON file by which the loader finds it
+  bool used = true;                ///< false: it crashed or hung there, and is never loaded here
+  int devices = 0;                 ///< that it listed there
+  std::string verdict;             ///< in words; what it did, and where
+  bool remembered = false;         ///< asked by an earlier process
+};
+
 struct DeviceSurvey {
-  std::vector<DeviceReport> vulkan;  ///< in the driver's order
+  std::vector<DriverReport> drivers;  ///< in the loader's order
+  /// Why drivers were loaded without having been asked before; empty: they were asked.
+  std::string unseen;
+  std::vector<DeviceReport> vulkan;  ///< in the drivers' order
   std::string loader;                ///< version of the Vulkan loader, or "none"
   std::string advice;       ///< where no Vulkan device is usable: why, and what to install for one
   std::string auto_choice;  ///< what Config::device = "auto" takes: a name, or "cpu"
 };
 
 /// Looks at every Vulkan device; with `self_test`, runs a known-answer model on each usable one.
-/// Never fails: a machine without Vulkan has an empty list, and `advice` says why.
-[[nodiscard]] FLOWDLO_EXPORT DeviceSurvey survey_devices(bool self_test);
+/// Never fails: a machine without Vulkan has an empty list, and `advice` says why. `probe`: as
+/// Config::probe.
+[[nodiscard]] FLOWDLO_EXPORT DeviceSurvey survey_devices(bool self_test, bool probe = true);
 
 }  // namespace flowdlo

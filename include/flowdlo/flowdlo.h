@@ -82,6 +82,8 @@ typedef struct flowdlo_config {
   int32_t validation;        /* Vulkan's validation layers: 0 or 1; slow */
   int32_t reserved;          /* 0 */
   double budget_ms;          /* that an estimate may take, milliseconds; 0: no limit */
+  int32_t probe;             /* 1: Vulkan drivers are asked in processes of their own first */
+  int32_t reserved_2;        /* 0 */
 } flowdlo_config;
 
 /* Fills `config` with the defaults. `struct_size` is sizeof(flowdlo_config). */

@@ -50,6 +50,7 @@ class Estimator:
     max_width, max_height: largest frame for which memory is set aside, pixels.
     device_timeout_ms: a frame that takes longer on a Vulkan device is `DeviceLost`; 0: chosen.
     validation: Vulkan's validation layers; slow.
+    probe: Vulkan drivers are asked in processes of their own before one is loaded here; False: not.
 
     Raises BadInput, BadWeights, Io, NoDevice or OutOfMemory. Other threads of Python run during the
     constructor and during `estimate`. Calls from several threads on one estimator wait for each
@@ -77,6 +78,7 @@ class Estimator:
         max_height: int | None = None,
         device_timeout_ms: int | None = None,
         validation: bool | None = None,
+        probe: bool | None = None,
     ) -> None:
         given: dict[str, Any] = {
             "device": device,
@@ -95,6 +97,7 @@ class Estimator:
             "max_height": max_height,
             "device_timeout_ms": device_timeout_ms,
             "validation": validation,
+            "probe": probe,
         }
         for name, file in (("weights", weights), ("field_weights", field_weights)):
             given[name] = None if file is None else arguments.path(name, file)

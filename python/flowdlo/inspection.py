@@ -7,7 +7,7 @@ from typing import Any
 
 from . import _core, arguments
 from .estimator import Path
-from .results import Device, DeviceSurvey, FrameFolder, Intrinsics, TensorInfo, WeightsInfo
+from .results import Device, DeviceSurvey, Driver, FrameFolder, Intrinsics, TensorInfo, WeightsInfo
 
 
 def default_config() -> dict[str, Any]:
@@ -28,13 +28,14 @@ def load_frame_folder(folder: Path, with_mask: bool = True) -> FrameFolder:
     return FrameFolder(**found)
 
 
-def survey_devices(self_test: bool = False) -> DeviceSurvey:
+def survey_devices(self_test: bool = False, probe: bool = True) -> DeviceSurvey:
     """Looks at every Vulkan device.
 
     With `self_test` it runs a model of known answers on each usable one, which takes a while. Never
-    fails: a machine without Vulkan has no devices, and `advice` says why.
+    fails: a machine without Vulkan has no devices, and `advice` says why. `probe`: as `Estimator`'s.
     """
-    found = _core.survey_devices(bool(self_test))
+    found = _core.survey_devices(bool(self_test), bool(probe))
+    found["drivers"] = tuple(Driver(**driver) for driver in found["drivers"])
     found["vulkan"] = tuple(Device(**device) for device in found["vulkan"])
     return DeviceSurvey(**found)
 

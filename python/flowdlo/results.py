@@ -204,10 +204,23 @@ class Device:
 
 
 @dataclass(frozen=True)
+class Driver:
+    """A Vulkan driver, as it behaved when it was asked in a process of its own."""
+
+    manifest: str  #: the JSON file by which the Vulkan loader finds it
+    used: bool  #: False: it crashed or hung there, and is never loaded here
+    devices: int  #: that it listed there
+    verdict: str  #: in words
+    remembered: bool  #: asked by an earlier process
+
+
+@dataclass(frozen=True)
 class DeviceSurvey:
     """What this machine offers."""
 
-    vulkan: tuple[Device, ...]  #: in the driver's order
+    drivers: tuple[Driver, ...]  #: in the loader's order
+    unseen: str  #: why drivers were loaded without having been asked before; empty: they were asked
+    vulkan: tuple[Device, ...]  #: in the drivers' order
     loader: str  #: version of the Vulkan loader, or "none"
     advice: str  #: where no Vulkan device is usable: why, and what to install for one
     auto_choice: str  #: what device="auto" takes: a name, or "cpu"

@@ -216,6 +216,7 @@ TEST(CApi, DefaultsAreThoseOfCpp) {
   EXPECT_EQ(config.max_width, defaults.max_width);
   EXPECT_EQ(config.max_height, defaults.max_height);
   EXPECT_EQ(config.quality, static_cast<int>(defaults.quality));
+  EXPECT_EQ(config.probe, 1);
 }
 
 TEST(CApi, EveryFieldOfTheConfigReachesTheEstimator) {  // each fault is named once it got there
@@ -237,6 +238,10 @@ TEST(CApi, EveryFieldOfTheConfigReachesTheEstimator) {  // each fault is named o
   config.reserved = 1;
   EXPECT_EQ(flowdlo_estimator_create(&config, &estimator), FLOWDLO_BAD_INPUT);
   EXPECT_THAT(flowdlo_last_error(), HasSubstr("flowdlo_config.reserved: expected 0, got 1"));
+  config = config_with(FLOWDLO_WEIGHTS);
+  config.reserved_2 = 2;
+  EXPECT_EQ(flowdlo_estimator_create(&config, &estimator), FLOWDLO_BAD_INPUT);
+  EXPECT_THAT(flowdlo_last_error(), HasSubstr("flowdlo_config.reserved_2: expected 0, got 2"));
   config = config_with("no/such/file.fdw");
   EXPECT_NE(flowdlo_estimator_create(&config, &estimator), FLOWDLO_OK);
   EXPECT_THAT(flowdlo_last_error(), HasSubstr("no/such/file.fdw"));

@@ -47,6 +47,12 @@ def test_devices_are_those_of_the_command(command):
     survey = flowdlo.survey_devices(self_test=True)
     assert [device.uuid for device in survey.vulkan] == [one["uuid"] for one in said["vulkan"]]
     assert survey.loader == said["loader"]
+    assert not survey.unseen and len(survey.drivers) == len(said["drivers"])
+    for driver, one in zip(survey.drivers, said["drivers"]):
+        assert (driver.manifest, driver.used) == (one["manifest"], one["used"])
+        assert (driver.devices, driver.verdict) == (one["devices"], one["verdict"])
+    unasked = flowdlo.survey_devices(probe=False)
+    assert not unasked.drivers and "Config::probe" in unasked.unseen
     for device in survey.vulkan:
         assert device.kind in ("discrete_gpu", "integrated_gpu", "virtual_gpu", "cpu", "other")
         assert len(device.uuid) == 32

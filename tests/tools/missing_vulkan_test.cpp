@@ -2,55 +2,23 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <string>
 
 #include "frame/temporary_folder.hpp"
+#include "support/variable.hpp"
 #include "tools/program.hpp"
 
 namespace flowdlo {
 namespace {
 
 using Json = nlohmann::json;
+using test::Drivers;
 using test::run_flowdlo;
 using test::TemporaryFolder;
+using test::Variable;
 using test::write_text;
 using testing::HasSubstr;
-
-/// A variable of the environment, as long as the test lasts.
-class Variable {
- public:
-  Variable(const char* name, const std::string& value) : name_(name) {
-    const char* const before = std::getenv(name);
-    if (before != nullptr) before_ = before;
-    had_ = before != nullptr;
-    ::setenv(name, value.c_str(), /*overwrite=*/1);
-  }
-  ~Variable() {
-    if (had_) {
-      ::setenv(name_, before_.c_str(), /*overwrite=*/1);
-    } else {
-      ::unsetenv(name_);
-    }
-  }
-  Variable(const Variable&) = delete;
-  Variable& operator=(const Variable&) = delete;
-
- private:
-  const char* name_;
-  std::string before_;
-  bool had_ = false;
-};
-
-/// Both names that loaders of different age know.
-struct Drivers {
-  explicit Drivers(const std::filesystem::path& manifest)
-      : files("VK_DRIVER_FILES", manifest.string()),
-        filenames("VK_ICD_FILENAMES", manifest.string()) {}
-  Variable files;
-  Variable filenames;
-};
 
 class MissingVulkan : public ::testing::Test {
  protected:

@@ -25,15 +25,20 @@ std::string quoted(const std::string& text) {
 
 }  // namespace
 
-Outcome run_flowdlo(const fs::path& scratch, const std::vector<std::string>& arguments) {
+Outcome run_program(const fs::path& scratch, const fs::path& program,
+                    const std::vector<std::string>& arguments) {
   const auto out = scratch / "stdout.txt";
   const auto err = scratch / "stderr.txt";
-  std::string line = quoted(FLOWDLO_COMMAND);
+  std::string line = quoted(program.string());
   for (const auto& argument : arguments) line.append(" ").append(quoted(argument));
   line.append(" > ").append(quoted(out.string()));
   line.append(" 2> ").append(quoted(err.string()));
   const int status = std::system(line.c_str());
   return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read_text(out), read_text(err)};
+}
+
+Outcome run_flowdlo(const fs::path& scratch, const std::vector<std::string>& arguments) {
+  return run_program(scratch, FLOWDLO_COMMAND, arguments);
 }
 
 Outcome run_estimate(const fs::path& scratch, std::vector<std::string> arguments) {

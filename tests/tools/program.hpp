@@ -18,6 +18,11 @@ struct Outcome {
 [[nodiscard]] Outcome run_flowdlo(const std::filesystem::path& scratch,
                                   const std::vector<std::string>& arguments);
 
+/// The same of another program.
+[[nodiscard]] Outcome run_program(const std::filesystem::path& scratch,
+                                  const std::filesystem::path& program,
+                                  const std::vector<std::string>& arguments);
+
 /// `estimate` on the CPU with the weights that ship, one draw and one step: quick.
 [[nodiscard]] Outcome run_estimate(const std::filesystem::path& scratch,
                                    std::vector<std::string> arguments);
