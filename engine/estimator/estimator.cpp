@@ -15,6 +15,7 @@
 #include "estimator/conditions.hpp"
 #include "estimator/config_check.hpp"
 #include "estimator/device_choice.hpp"
+#include "estimator/device_sampler.hpp"
 #include "estimator/hints.hpp"
 #include "estimator/known_scene.hpp"
 #include "estimator/opening.hpp"
@@ -85,9 +86,7 @@ Estimate conclude(const estimator::Returned& returned,
 struct FLOWDLO_HIDDEN Estimator::Impl {
   Config config;
   weights::Metadata metadata;
-  flow::WeightsSource weights;
-  std::string device;
-  flow::Sampler sampler;
+  estimator::DeviceSampler sampler;
   std::optional<field::Network> field;
   threads::Pool pool{config.threads};  // for what runs beside the model
   estimator::ReadingCosts reading_costs{};
@@ -100,7 +99,6 @@ struct FLOWDLO_HIDDEN Estimator::Impl {
   Result<Estimate> estimate(const Frame& frame, const Hints& hints, Tensors* tensors,
                             const estimator::Budget& budget,
                             const path::Traversals* traced = nullptr);
-  Result<flow::Prediction> sample(const flow::SampleInput& input);
   [[nodiscard]] weights::PriorKind prior_kind() const;
   [[nodiscard]] bool calibrated() const;
   [[nodiscard]] estimator::ReadingLimits limits(const estimator::Budget& budget,
@@ -126,14 +124,13 @@ Result<std::unique_ptr<Estimator::Impl>> Estimator::Impl::create(const Config& w
   const weights::Metadata metadata = loaded->weights->metadata;
   const Config config = estimator::resolved(wanted, metadata);
   if (!back_end) return back_end.error();
-  const auto weights = estimator::source_of(*loaded);
   auto sampler =
-      flow::Sampler::create(weights, back_end->make_program, estimator::sampler_config(config));
+      estimator::DeviceSampler::create(config, estimator::source_of(*loaded), *std::move(back_end));
   if (!sampler) return sampler.error();
   auto field = estimator::open_field(config, location->field);
   if (!field) return field.error();
   auto impl = std::unique_ptr<Impl>(  // an aggregate, which Clang 14 makes by braces only
-      new Impl{config, metadata, weights, back_end->name, *std::move(sampler), *std::move(field)});
+      new Impl{config, metadata, *std::move(sampler), *std::move(field)});
   if (config.budget_ms > 0) impl->learn_costs();
   return impl;
 }
@@ -143,20 +140,6 @@ void Estimator::Impl::learn_costs() {
   const estimator::KnownScene scene;
   Tensors tensors;  // nothing is left out where they are asked for
   (void)estimate(scene.frame(), {}, &tensors, estimator::Budget(config.budget_ms));
-}
-
-/// The model's predictions. Where the device was left to us, a lost one is replaced by the CPU.
-Result<flow::Prediction> Estimator::Impl::sample(const flow::SampleInput& input) {
-  auto prediction = sampler.sample(input);
-  if (prediction || config.device != "auto" || device == "cpu") return prediction;
-  if (prediction.error().code == ErrorCode::kOutOfMemory) return prediction;  // the host's
-  const auto cpu = estimator::cpu_back_end(config.threads);
-  auto replacement =
-      flow::Sampler::create(weights, cpu.make_program, estimator::sampler_config(config));
-  if (!replacement) return prediction;
-  sampler = *std::move(replacement);
-  device = cpu.name;
-  return sampler.sample(input);
 }
 
 weights::PriorKind Estimator::Impl::prior_kind() const {
@@ -255,11 +238,11 @@ Result<Estimate> Estimator::Impl::estimate(const Frame& frame, const Hints& hint
 
   Result<flow::Prediction> prediction = flow::Prediction{};
   if (sampled) {
-    prediction = sample({.frame = frame,  // Eq. (3.26)-(3.29)
-                         .cloud = conditions->cloud,
-                         .field = mask_field,
-                         .draw_priors = draw_priors,
-                         .visible = &conditions->visible});
+    prediction = sampler.sample({.frame = frame,  // Eq. (3.26)-(3.29)
+                                 .cloud = conditions->cloud,
+                                 .field = mask_field,
+                                 .draw_priors = draw_priors,
+                                 .visible = &conditions->visible});
     if (!prediction) return prediction.error();
     timings.device_ms = sampler.stage_times_ms();
   }
@@ -369,7 +352,7 @@ Result<Estimate> Estimator::estimate(const Frame& frame, const Hints& hints, Ten
 
 const std::string& Estimator::device() const {
   static const std::string none;
-  return impl_ ? impl_->device : none;
+  return impl_ ? impl_->sampler.device() : none;
 }
 
 int Estimator::euler_steps() const { return impl_ ? impl_->config.euler_steps : 0; }

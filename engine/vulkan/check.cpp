@@ -9,18 +9,14 @@ ErrorCode code_of(VkResult result) {
   switch (result) {
     case VK_ERROR_OUT_OF_HOST_MEMORY:
       return ErrorCode::kOutOfMemory;
-    case VK_ERROR_DEVICE_LOST:
-    case VK_ERROR_OUT_OF_DEVICE_MEMORY:
-    case VK_TIMEOUT:
-      return ErrorCode::kDeviceLost;
     case VK_ERROR_INCOMPATIBLE_DRIVER:
     case VK_ERROR_EXTENSION_NOT_PRESENT:
     case VK_ERROR_FEATURE_NOT_PRESENT:
     case VK_ERROR_LAYER_NOT_PRESENT:
     case VK_ERROR_INITIALIZATION_FAILED:
       return ErrorCode::kNoDevice;
-    default:
-      return ErrorCode::kInternal;
+    default:  // lost, out of memory or of some other thing that it has: the device's failure
+      return ErrorCode::kDeviceLost;
   }
 }
 
@@ -48,6 +44,7 @@ std::string name_of(VkResult result) {
     FLOWDLO_CASE(VK_ERROR_FORMAT_NOT_SUPPORTED)
     FLOWDLO_CASE(VK_ERROR_FRAGMENTED_POOL)
     FLOWDLO_CASE(VK_ERROR_OUT_OF_POOL_MEMORY)
+    FLOWDLO_CASE(VK_ERROR_FRAGMENTATION)
     FLOWDLO_CASE(VK_ERROR_UNKNOWN)
     default:
       return fmt::format("VkResult {}", static_cast<int>(result));

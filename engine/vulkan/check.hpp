@@ -10,8 +10,8 @@
 namespace flowdlo::vulkan {
 
 /// VK_SUCCESS, or an error `operation: VK_ERROR_... on "device"`. `operation` is the call with what
-/// it is about, "vkCreateBuffer(scratch)". A lost device, or one without memory, is kDeviceLost;
-/// a host without memory kOutOfMemory.
+/// it is about, "vkCreateBuffer(scratch)". A host without memory is kOutOfMemory, what a
+/// device cannot do at all kNoDevice, every other failure of a device kDeviceLost.
 [[nodiscard]] Result<void> check(VkResult result, std::string_view operation,
                                  std::string_view device);
 

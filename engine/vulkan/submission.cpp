@@ -2,12 +2,19 @@
 
 #include <fmt/format.h>
 
+#include <chrono>
+#include <thread>
+
 namespace flowdlo::vulkan {
 namespace {
 
 std::uint64_t nanoseconds(int milliseconds) {
   return static_cast<std::uint64_t>(milliseconds > 0 ? milliseconds : 0) * 1'000'000U;
 }
+
+/// Whether work may still be under way after a wait that gave this: one that failed for want of
+/// memory says nothing of it. A lost device runs nothing any more.
+bool may_run_on(VkResult waited) { return waited != VK_SUCCESS && waited != VK_ERROR_DEVICE_LOST; }
 
 }  // namespace
 
@@ -74,16 +81,22 @@ Result<void> Submission::run(Device& device, VkCommandBuffer commands, int timeo
                              "perhaps with a longer timeout or on another device",
                              device.facts().report.name, timeout_ms)};
   }
-  in_flight_ = false;  // a lost device runs nothing any more
+  in_flight_ = may_run_on(waited);
   return device.check(waited, "vkWaitForFences");
 }
 
 bool Submission::idle(const Device& device, int wait_ms) {
-  if (!in_flight_) return true;
+  using Clock = std::chrono::steady_clock;
+  constexpr std::chrono::milliseconds kPause{10};
+  const auto by = Clock::now() + std::chrono::milliseconds(wait_ms);
   const VkFence fence = fence_.get();
-  const VkResult waited =
-      device.api().vkWaitForFences(device.handle(), 1, &fence, VK_TRUE, nanoseconds(wait_ms));
-  in_flight_ = waited == VK_TIMEOUT;
+  while (in_flight_) {
+    const VkResult waited =
+        device.api().vkWaitForFences(device.handle(), 1, &fence, VK_TRUE, nanoseconds(wait_ms));
+    in_flight_ = may_run_on(waited);
+    if (waited == VK_TIMEOUT || Clock::now() >= by) break;
+    if (in_flight_) std::this_thread::sleep_for(kPause);
+  }
   return !in_flight_;
 }
 

@@ -46,8 +46,9 @@ struct Config {
   std::filesystem::path weights;
 
   /// "auto": the best real GPU whose self-test passes, otherwise the CPU back end, never a CPU
-  /// Vulkan driver. "cpu": the native back end. "vulkan": any Vulkan device, a GPU first. Anything
-  /// else: part of a device's name, or its UUID, as `flowdlo devices` prints them.
+  /// Vulkan driver; and the CPU as long as a GPU that was lost is not back. "cpu": the native back
+  /// end. "vulkan": any Vulkan device, a GPU first. Anything else: part of a device's name, or its
+  /// UUID, as `flowdlo devices` prints them.
   std::string device = "auto";
 
   Quality quality = Quality::kFull;  ///< kFast takes the place of the next two

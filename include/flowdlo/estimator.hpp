@@ -19,8 +19,9 @@ namespace flowdlo {
 /// fails. An instance that was moved from fails as well, and answers nothing but that.
 class FLOWDLO_EXPORT Estimator {
  public:
-  /// Fails with kBadInput, kBadWeights, kIo, kNoDevice or kOutOfMemory. The only call that reads
-  /// files or compiles.
+  /// Fails with kBadInput, kBadWeights, kIo, kNoDevice, kDeviceLost or kOutOfMemory; with
+  /// Config::device "auto" never for a device's sake. The only call that reads files or compiles,
+  /// but for what "auto" does beside the frames after it lost a device.
   [[nodiscard]] static Result<Estimator> create(const Config& config);
 
   /// Fails with kBadInput, kNoEvidence, kNoPath, kDeviceLost or kOutOfMemory; never throws. A
@@ -42,7 +43,9 @@ class FLOWDLO_EXPORT Estimator {
   /// asked for.
   [[nodiscard]] Result<Ropes> estimate_ropes(const Frame& frame);
 
-  /// "cpu", or the name of the Vulkan device in use. Moved from: empty.
+  /// "cpu", or the name of the Vulkan device in use. With Config::device "auto" a lost device is
+  /// followed by "cpu"; a device is tried again after 1 s, 2 s, 4 s and so on up to 5 minutes, on a
+  /// thread of its own, and taken for the next frame once its self-test passes. Moved from: empty.
   [[nodiscard]] const std::string& device() const;
 
   /// K and D in use: Config's, or those that Quality::kFast stands for. Moved from: 0.

@@ -294,7 +294,8 @@ FLOWDLO_EXPORT flowdlo_status flowdlo_alternative_init(flowdlo_alternative* alte
 typedef struct flowdlo_estimator flowdlo_estimator;
 
 /* `config` NULL: the defaults. Its strings are copied. Fails with FLOWDLO_BAD_INPUT,
- * FLOWDLO_BAD_WEIGHTS, FLOWDLO_IO, FLOWDLO_NO_DEVICE or FLOWDLO_OUT_OF_MEMORY. */
+ * FLOWDLO_BAD_WEIGHTS, FLOWDLO_IO, FLOWDLO_NO_DEVICE, FLOWDLO_DEVICE_LOST or
+ * FLOWDLO_OUT_OF_MEMORY. */
 FLOWDLO_EXPORT flowdlo_status flowdlo_estimator_create(const flowdlo_config* config,
                                                        flowdlo_estimator** estimator);
 

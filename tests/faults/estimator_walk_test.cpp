@@ -1,0 +1,168 @@
+// An estimator whose device fails, when it is made and within a frame.
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <string>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "faults/relayed.hpp"
+#include "faults/walk.hpp"
+#include "flowdlo/devices.hpp"
+#include "flowdlo/estimator.hpp"
+#include "support/estimate_bits.hpp"
+#include "support/wave_frame.hpp"
+#include "vulkan/vulkan_api.hpp"
+
+namespace flowdlo::testing {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::seconds;
+
+Config config(const char* device) {
+  return {.weights = FLOWDLO_WEIGHTS,
+          .device = device,
+          .euler_steps = 1,
+          .draws = 1,
+          .threads = 2,
+          .max_width = 160,
+          .max_height = 120};
+}
+
+class EstimatorWalk : public Relayed {
+ protected:
+  WaveFrame wave_{160, 120, 7.0F};
+};
+
+TEST_F(EstimatorWalk, CreateEndsInAnErrorOrAnEstimatorThatIsRight) {
+  walk(
+      [&](bool /*layers*/) -> Result<std::string> {
+        auto made = Estimator::create(config("vulkan"));
+        if (!made) return made.error();
+        auto estimate = made->estimate(wave_.frame());
+        if (!estimate) return estimate.error();
+        return bits_of(*estimate);
+      },
+      Thoroughly::kFirstAlone);
+}
+
+/// Of the calls that a frame makes, each with each result: by name an Error or the right bits, with
+/// "auto" an estimate, the device's or the CPU's.
+TEST_F(EstimatorWalk, EachCallWithinAFrameEndsAsPromised) {
+  const std::vector<std::pair<const char*, std::vector<VkResult>>> calls = {
+      {"vkResetFences", {VK_ERROR_OUT_OF_HOST_MEMORY, VK_ERROR_OUT_OF_DEVICE_MEMORY}},
+      {"vkQueueSubmit",
+       {VK_ERROR_OUT_OF_HOST_MEMORY, VK_ERROR_OUT_OF_DEVICE_MEMORY, VK_ERROR_DEVICE_LOST}},
+      {"vkWaitForFences",
+       {VK_ERROR_OUT_OF_HOST_MEMORY, VK_ERROR_OUT_OF_DEVICE_MEMORY, VK_ERROR_DEVICE_LOST,
+        VK_TIMEOUT}},
+      {"vkGetQueryPoolResults", {VK_ERROR_OUT_OF_HOST_MEMORY, VK_NOT_READY}}};
+  auto cpu = Estimator::create(config("cpu"));
+  ASSERT_TRUE(cpu);
+  const std::string on_cpu = bits_of(*cpu->estimate(wave_.frame()));
+  relay()->pose_as_gpu(true);
+  for (const char* const device : {"vulkan", "auto"}) {
+    std::string on_device;
+    for (const auto& [function, results] : calls) {
+      for (const VkResult result : results) {
+        SCOPED_TRACE(std::string(device) + ", " + function + ": " + std::to_string(result));
+        auto made = Estimator::create(config(device));
+        ASSERT_TRUE(made) << made.error().message;
+        if (on_device.empty()) on_device = bits_of(*made->estimate(wave_.frame()));
+        relay()->fail(function, 1, result);
+        const auto estimate = made->estimate(wave_.frame());
+        EXPECT_TRUE(relay()->failed());
+        relay()->reset();
+        if (!estimate) {
+          EXPECT_STREQ(device, "vulkan");
+          EXPECT_EQ(estimate.error().code, ErrorCode::kDeviceLost);
+          EXPECT_FALSE(made->estimate(wave_.frame())) << "a lost device stays lost";
+          continue;
+        }
+        EXPECT_TRUE(bits_of(*estimate) == (made->device() == "cpu" ? on_cpu : on_device));
+        EXPECT_TRUE(made->estimate(wave_.frame()));
+      }
+    }
+  }
+}
+
+TEST_F(EstimatorWalk, AutoAlwaysEstimates) {
+  relay()->pose_as_gpu(true);
+  for (const auto& [function, result] :
+       {std::pair{"vkCreateInstance", VK_ERROR_INITIALIZATION_FAILED},
+        std::pair{"vkEnumeratePhysicalDevices", VK_ERROR_INITIALIZATION_FAILED},
+        std::pair{"vkCreateDevice", VK_ERROR_DEVICE_LOST},
+        std::pair{"vkAllocateMemory", VK_ERROR_OUT_OF_DEVICE_MEMORY},
+        std::pair{"vkCreateComputePipelines", VK_ERROR_OUT_OF_DEVICE_MEMORY},
+        std::pair{"vkQueueSubmit", VK_ERROR_DEVICE_LOST},
+        std::pair{"vkWaitForFences", VK_ERROR_DEVICE_LOST}}) {
+    SCOPED_TRACE(function);
+    relay()->fail(function, 1, result);
+    auto made = Estimator::create(config("auto"));
+    ASSERT_TRUE(made) << made.error().message;
+    EXPECT_TRUE(relay()->failed());
+    const auto estimate = made->estimate(wave_.frame());
+    ASSERT_TRUE(estimate) << estimate.error().message;
+    EXPECT_EQ(made->device(), "cpu");
+  }
+}
+
+/// Every frame has an estimate while the device is lost, tried again and back.
+TEST_F(EstimatorWalk, AutoComesBackToADeviceThatWasLost) {
+  relay()->pose_as_gpu(true);
+  auto made = Estimator::create(config("auto"));
+  ASSERT_TRUE(made) << made.error().message;
+  ASSERT_EQ(made->device(), "Relayed GPU");
+  const std::string on_device = bits_of(*made->estimate(wave_.frame()));
+  auto cpu = Estimator::create(config("cpu"));
+  ASSERT_TRUE(cpu);
+  const std::string on_cpu = bits_of(*cpu->estimate(wave_.frame()));
+
+  relay()->hide(true);  // the driver is being reset
+  relay()->fail("vkQueueSubmit", 1, VK_ERROR_DEVICE_LOST);
+  const auto within = made->estimate(wave_.frame());
+  ASSERT_TRUE(within) << within.error().message;
+  EXPECT_EQ(made->device(), "cpu");
+  EXPECT_EQ(bits_of(*within), on_cpu);
+
+  // Tries after 1 s find nothing, and no frame waits for them.
+  const auto until = std::chrono::steady_clock::now() + milliseconds(1500);
+  while (std::chrono::steady_clock::now() < until) {
+    ASSERT_TRUE(made->estimate(wave_.frame()));
+    EXPECT_EQ(made->device(), "cpu");
+  }
+  relay()->reset();
+  relay()->hide(false);
+  const auto patience = std::chrono::steady_clock::now() + seconds(120);
+  std::string last;
+  while (made->device() == "cpu" && std::chrono::steady_clock::now() < patience) {
+    const auto estimate = made->estimate(wave_.frame());
+    ASSERT_TRUE(estimate) << estimate.error().message;
+    last = bits_of(*estimate);
+    if (made->device() == "cpu") {
+      EXPECT_EQ(last, on_cpu);
+    }
+    std::this_thread::sleep_for(milliseconds(20));
+  }
+  EXPECT_EQ(made->device(), "Relayed GPU");
+  EXPECT_EQ(last, on_device);
+}
+
+TEST_F(EstimatorWalk, EstimateOfADeviceAskedForByNameEndsInAnError) {
+  auto made = Estimator::create(config("vulkan"));
+  ASSERT_TRUE(made) << made.error().message;
+  relay()->fail("vkWaitForFences", 1, VK_ERROR_DEVICE_LOST);
+  const auto lost = made->estimate(wave_.frame());
+  ASSERT_FALSE(lost);
+  EXPECT_EQ(lost.error().code, ErrorCode::kDeviceLost);
+  relay()->reset();
+  EXPECT_EQ(made->estimate(wave_.frame()).error().code, ErrorCode::kDeviceLost) << "it stays lost";
+  auto next = Estimator::create(config("vulkan"));
+  ASSERT_TRUE(next) << next.error().message;
+  EXPECT_TRUE(next->estimate(wave_.frame()));
+}
+
+}  // namespace
+}  // namespace flowdlo::testing

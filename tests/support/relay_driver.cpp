@@ -1,0 +1,289 @@
+#include <dlfcn.h>
+
+#include <array>
+#include <atomic>
+#include <cstdlib>
+#include <cstring>
+#include <mutex>
+#include <string_view>
+
+#include "support/relay.hpp"
+#include "vulkan/vulkan_api.hpp"
+
+namespace flowdlo::testing {
+namespace {
+
+#define RELAY_ID(name) k_##name,
+enum Function : int {
+  kCreateInstance,
+  FLOWDLO_INSTANCE_FUNCTIONS(RELAY_ID) FLOWDLO_DEVICE_FUNCTIONS(RELAY_ID) kCount
+};
+#undef RELAY_ID
+
+#define RELAY_NAME(name) #name,
+constexpr std::array<const char*, kCount> kNames = {"vkCreateInstance",
+                                                    FLOWDLO_INSTANCE_FUNCTIONS(RELAY_NAME)
+                                                        FLOWDLO_DEVICE_FUNCTIONS(RELAY_NAME)};
+#undef RELAY_NAME
+
+struct State {
+  std::mutex mutex;
+  std::array<long, kCount> calls{};
+  int fault_in = -1;  // a Function
+  long fault_at = 0;  // counted down
+  VkResult fault = VK_SUCCESS;
+  bool failed = false;
+  bool lost = false;
+  std::atomic<long> alive = 0;
+  std::atomic<bool> poses_as_gpu = false;
+  std::atomic<bool> hides = false;
+};
+
+State& state() {
+  static State one;
+  return one;
+}
+
+bool notices_loss(int function) {
+  return function == k_vkQueueSubmit || function == k_vkWaitForFences ||
+         function == k_vkGetQueryPoolResults;
+}
+
+/// Counts a call. VK_SUCCESS: it goes on to the other driver.
+VkResult met(int function) {
+  State& now = state();
+  const std::lock_guard lock(now.mutex);
+  ++now.calls[static_cast<std::size_t>(function)];
+  if (function == now.fault_in && --now.fault_at == 0) {
+    now.failed = true;
+    now.lost = now.fault == VK_ERROR_DEVICE_LOST && function != k_vkCreateDevice;
+    return now.fault;
+  }
+  return now.lost && notices_loss(function) ? VK_ERROR_DEVICE_LOST : VK_SUCCESS;
+}
+
+template <class Handle>
+void born(const Handle* handles, std::uint32_t count) {
+  for (std::uint32_t i = 0; i < count; ++i) {
+    if (handles[i] != VK_NULL_HANDLE) ++state().alive;
+  }
+}
+
+/// What a call of each shape does to the number of objects.
+template <class... Arguments>
+void count_objects(Arguments...) {}
+
+template <class Info, class Handle>
+void count_objects(VkDevice, const Info*, const VkAllocationCallbacks*, Handle* created) {
+  born(created, 1);
+}
+void count_objects(VkPhysicalDevice, const VkDeviceCreateInfo*, const VkAllocationCallbacks*,
+                   VkDevice* created) {
+  born(created, 1);
+  const std::lock_guard lock(state().mutex);
+  state().lost = false;
+}
+void count_objects(const VkInstanceCreateInfo*, const VkAllocationCallbacks*, VkInstance* created) {
+  born(created, 1);
+}
+void count_objects(VkDevice, VkPipelineCache, std::uint32_t count,
+                   const VkComputePipelineCreateInfo*, const VkAllocationCallbacks*,
+                   VkPipeline* created) {
+  born(created, count);
+}
+template <class Handle>
+void count_objects(VkDevice, Handle object, const VkAllocationCallbacks*) {
+  if (object != VK_NULL_HANDLE) --state().alive;
+}
+void count_objects(VkDevice device, const VkAllocationCallbacks*) {
+  if (device != VK_NULL_HANDLE) --state().alive;
+}
+void count_objects(VkInstance instance, const VkAllocationCallbacks*) {
+  if (instance != VK_NULL_HANDLE) --state().alive;
+}
+
+template <int kFunction, class Pointer>
+struct Relayed;
+
+template <int kFunction, class... Arguments>
+struct Relayed<kFunction, VkResult(VKAPI_PTR*)(Arguments...)> {
+  static inline VkResult(VKAPI_PTR* next)(Arguments...) = nullptr;
+  static VKAPI_ATTR VkResult VKAPI_CALL call(Arguments... arguments) {
+    const VkResult fault = met(kFunction);
+    if (fault == VK_ERROR_DEVICE_LOST && kFunction == k_vkWaitForFences) {
+      (void)next(arguments...);  // what a lost device did is over
+    }
+    if (fault != VK_SUCCESS) return fault;
+    const VkResult result = next(arguments...);
+    if (result == VK_SUCCESS) count_objects(arguments...);
+    return result;
+  }
+};
+
+template <int kFunction, class... Arguments>
+struct Relayed<kFunction, void(VKAPI_PTR*)(Arguments...)> {
+  static inline void(VKAPI_PTR* next)(Arguments...) = nullptr;
+  static VKAPI_ATTR void VKAPI_CALL call(Arguments... arguments) {
+    (void)met(kFunction);
+    count_objects(arguments...);
+    next(arguments...);
+  }
+};
+
+template <int kFunction, class... Arguments>
+struct Relayed<kFunction, PFN_vkVoidFunction(VKAPI_PTR*)(Arguments...)> {
+  static inline PFN_vkVoidFunction(VKAPI_PTR* next)(Arguments...) = nullptr;
+  static VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL call(Arguments... arguments) {
+    return next(arguments...);
+  }
+};
+
+using CreateInstance = Relayed<kCreateInstance, PFN_vkCreateInstance>;
+using GetDeviceProcAddr = Relayed<k_vkGetDeviceProcAddr, PFN_vkGetDeviceProcAddr>;
+using ListDevices = Relayed<k_vkEnumeratePhysicalDevices, PFN_vkEnumeratePhysicalDevices>;
+using Properties = Relayed<k_vkGetPhysicalDeviceProperties, PFN_vkGetPhysicalDeviceProperties>;
+using Properties2 = Relayed<k_vkGetPhysicalDeviceProperties2, PFN_vkGetPhysicalDeviceProperties2>;
+
+VKAPI_ATTR VkResult VKAPI_CALL list_devices(VkInstance instance, std::uint32_t* count,
+                                            VkPhysicalDevice* devices) {
+  if (!state().hides) return ListDevices::call(instance, count, devices);
+  *count = 0;
+  return VK_SUCCESS;
+}
+
+void pose(VkPhysicalDeviceProperties& properties) {
+  if (!state().poses_as_gpu) return;
+  properties.deviceType = VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU;
+  std::strncpy(properties.deviceName, "Relayed GPU", sizeof(properties.deviceName) - 1);
+}
+
+VKAPI_ATTR void VKAPI_CALL properties(VkPhysicalDevice device, VkPhysicalDeviceProperties* out) {
+  Properties::next(device, out);
+  pose(*out);
+}
+
+VKAPI_ATTR void VKAPI_CALL properties_2(VkPhysicalDevice device, VkPhysicalDeviceProperties2* out) {
+  Properties2::next(device, out);
+  pose(out->properties);
+  for (auto* part = static_cast<VkBaseOutStructure*>(out->pNext); part != nullptr;
+       part = part->pNext) {
+    if (part->sType != VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES) continue;
+    auto* const driver = reinterpret_cast<VkPhysicalDeviceDriverProperties*>(part);
+    if (state().poses_as_gpu) driver->driverID = VK_DRIVER_ID_AMD_PROPRIETARY;
+  }
+}
+
+/// Ours in the place of `theirs`, where this relay minds the function.
+PFN_vkVoidFunction relayed(std::string_view name, PFN_vkVoidFunction theirs);
+
+VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL get_device_proc_addr(VkDevice device, const char* name) {
+  return relayed(name, GetDeviceProcAddr::next(device, name));
+}
+
+template <class Kind, class Pointer>
+PFN_vkVoidFunction put_between(PFN_vkVoidFunction theirs, Pointer ours) {
+  Kind::next = reinterpret_cast<decltype(Kind::next)>(theirs);
+  return reinterpret_cast<PFN_vkVoidFunction>(ours);
+}
+
+template <class Kind>
+PFN_vkVoidFunction put_between(PFN_vkVoidFunction theirs) {
+  return put_between<Kind>(theirs, &Kind::call);
+}
+
+PFN_vkVoidFunction relayed(std::string_view name, PFN_vkVoidFunction theirs) {
+  if (theirs == nullptr) return nullptr;
+  if (name == "vkGetDeviceProcAddr") {
+    return put_between<GetDeviceProcAddr>(theirs, &get_device_proc_addr);
+  }
+  if (name == "vkEnumeratePhysicalDevices") return put_between<ListDevices>(theirs, &list_devices);
+  if (name == "vkGetPhysicalDeviceProperties") return put_between<Properties>(theirs, &properties);
+  if (name == "vkGetPhysicalDeviceProperties2" || name == "vkGetPhysicalDeviceProperties2KHR") {
+    return put_between<Properties2>(theirs, &properties_2);
+  }
+  if (name == "vkCreateInstance") return put_between<CreateInstance>(theirs);
+#define RELAY_PUT(function) \
+  if (name == #function) return put_between<Relayed<k_##function, PFN_##function>>(theirs);
+  FLOWDLO_INSTANCE_FUNCTIONS(RELAY_PUT)
+  FLOWDLO_DEVICE_FUNCTIONS(RELAY_PUT)
+#undef RELAY_PUT
+  return theirs;
+}
+
+/// The other driver; without one nothing here works, and the test says so.
+void* other() {
+  static void* const library = [] {
+    const char* const name = std::getenv("RELAY_TARGET");
+    return name != nullptr ? dlopen(name, RTLD_LAZY | RTLD_LOCAL) : nullptr;
+  }();
+  return library;
+}
+
+int function_of(const char* name) {
+  for (int i = 0; i < kCount; ++i) {
+    if (std::strcmp(kNames[static_cast<std::size_t>(i)], name) == 0) return i;
+  }
+  std::abort();  // a test's mistake
+}
+
+}  // namespace
+}  // namespace flowdlo::testing
+
+using namespace flowdlo::testing;
+
+extern "C" {
+
+__attribute__((visibility("default"))) VkResult vk_icdNegotiateLoaderICDInterfaceVersion(
+    std::uint32_t* version) {
+  if (other() == nullptr) return VK_ERROR_INCOMPATIBLE_DRIVER;
+  using Negotiate = VkResult (*)(std::uint32_t*);
+  return reinterpret_cast<Negotiate>(dlsym(other(), "vk_icdNegotiateLoaderICDInterfaceVersion"))(
+      version);
+}
+
+__attribute__((visibility("default"))) PFN_vkVoidFunction vk_icdGetInstanceProcAddr(
+    VkInstance instance, const char* name) {
+  static const auto next =
+      reinterpret_cast<PFN_vkGetInstanceProcAddr>(dlsym(other(), "vk_icdGetInstanceProcAddr"));
+  return relayed(name, next(instance, name));
+}
+
+__attribute__((visibility("default"))) const RelayTable* relay() {
+  static constexpr RelayTable table{
+      .reset =
+          [] {
+            const std::lock_guard lock(state().mutex);
+            state().calls.fill(0);
+            state().fault_in = -1;
+            state().failed = state().lost = false;
+          },
+      .fail =
+          [](const char* function, long nth, std::int32_t result) {
+            const std::lock_guard lock(state().mutex);
+            state().fault_in = function_of(function);
+            state().fault_at = nth;
+            state().fault = static_cast<VkResult>(result);
+            state().failed = state().lost = false;
+          },
+      .failed =
+          [] {
+            const std::lock_guard lock(state().mutex);
+            return state().failed;
+          },
+      .lost =
+          [] {
+            const std::lock_guard lock(state().mutex);
+            return state().lost || (state().failed && state().fault_in == k_vkQueueSubmit);
+          },
+      .calls =
+          [](const char* function) {
+            const std::lock_guard lock(state().mutex);
+            return state().calls[static_cast<std::size_t>(function_of(function))];
+          },
+      .alive = [] { return state().alive.load(); },
+      .pose_as_gpu = [](bool poses) { state().poses_as_gpu = poses; },
+      .hide = [](bool hides) { state().hides = hides; },
+  };
+  return &table;
+}
+}
