@@ -1,7 +1,8 @@
 # flowdlo_shaders(out_sources name...): compiles shaders/<name>.comp to SPIR-V, validates it, and
 # embeds it in a C++ file that defines flowdlo::vulkan::shaders::<name>(). Appends those files to
 # the variable. No compiler is needed at run time. With NEEDS EXTENSION, and a compiler that does not
-# know that extension of GLSL, the shader has no words, and who wants it must do without.
+# know that extension of GLSL, the shader has no words, and who wants it must do without. A shader that
+# asks for PLAIN is compiled a second time with that defined, for devices without shuffles.
 find_program(FLOWDLO_GLSLANG glslangValidator REQUIRED
              DOC "GLSL compiler; Debian and Ubuntu: glslang-tools")
 find_program(FLOWDLO_SPIRV_VAL spirv-val DOC "SPIR-V validator; Debian and Ubuntu: spirv-tools")
@@ -45,11 +46,30 @@ function(flowdlo_shaders out_sources)
       list(APPEND sources "${folder}/${name}_shader.cpp")
       continue()
     endif()
+    set(plain)
+    set(plain_words)
+    set(FLOWDLO_PLAIN_INCLUDE "")
+    set(FLOWDLO_PLAIN_WORDS "{}")
+    file(STRINGS "${shader}" asks REGEX "^#if.*PLAIN")
+    if(asks)
+      set(plain COMMAND ${compile} -DPLAIN -o "${folder}/${name}_plain.spv" "${shader}")
+      if(FLOWDLO_SPIRV_VAL)
+        list(APPEND plain COMMAND "${FLOWDLO_SPIRV_VAL}" --target-env vulkan1.1
+                                  "${folder}/${name}_plain.spv")
+      endif()
+      list(APPEND plain COMMAND ${compile} -DPLAIN --vn ${name}_plain_words
+                                -o "${folder}/${name}_plain.spv.h" "${shader}")
+      set(plain_words "${folder}/${name}_plain.spv.h")
+      set(FLOWDLO_PLAIN_INCLUDE "#include \"${name}_plain.spv.h\"")
+      set(FLOWDLO_PLAIN_WORDS "${name}_plain_words")
+    endif()
     add_custom_command(
       OUTPUT "${folder}/${name}.spv.h"
       COMMAND ${compile} -o "${folder}/${name}.spv" "${shader}"
       ${validate}
+      ${plain}
       COMMAND ${compile} --vn ${name}_words -o "${folder}/${name}.spv.h" "${shader}"
+      BYPRODUCTS ${plain_words}
       DEPENDS "${shader}" ${included}
       COMMENT "Shader ${name}"
       VERBATIM)

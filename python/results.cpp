@@ -165,7 +165,8 @@ py::dict dict_of(const DeviceSurvey& survey) {
     devices.append(py::dict("name"_a = text(device.name), "uuid"_a = device.uuid,
                             "kind"_a = name_of(device.kind), "driver"_a = text(device.driver),
                             "api_version"_a = device.api_version,
-                            "subgroup_size"_a = device.subgroup_size, "lacks"_a = py::tuple(lacks),
+                            "subgroup_size"_a = device.subgroup_size,
+                            "shuffles"_a = device.shuffles, "lacks"_a = py::tuple(lacks),
                             "self_test_passed"_a = passed, "self_test"_a = text(device.self_test)));
   }
   py::list drivers;

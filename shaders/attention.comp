@@ -11,12 +11,14 @@
 //   twin      engine/reference/attention.cpp; agrees to 1e-5 of the largest value
 //
 // A lane owns `queries` queries. Keys come in blocks of `block`, whose texels are spread over the
-// lanes: each fetches its share, shuffles hand them round. The softmax is online, rescaled once a
-// block. Nothing waits.
+// lanes: each fetches its share, shuffles hand them round; a plain kernel's lanes all fetch every
+// texel, from one address. The softmax is online, rescaled once a block. Nothing waits.
 #version 450
 #extension GL_GOOGLE_include_directive : require
+#ifndef PLAIN  // without subgroups: see vulkan/shader_code.hpp
 #extension GL_KHR_shader_subgroup_basic : require
 #extension GL_KHR_shader_subgroup_shuffle : require
+#endif
 #extension GL_EXT_control_flow_attributes : require
 #include "push_constants.h"
 
@@ -44,12 +46,23 @@ const int spread = lanes / block < kHeadTexels ? lanes / block : kHeadTexels;
 const int share = kHeadTexels / spread;
 
 // Texel c of key j of the block.
+#ifndef PLAIN
 vec4 from(vec4 held[share], int j, int c, uint group) {
   vec4 texel = held[c / spread];
   uint holder = group + uint(j * spread + c % spread);
   return vec4(subgroupShuffle(texel.x, holder), subgroupShuffle(texel.y, holder),
               subgroupShuffle(texel.z, holder), subgroupShuffle(texel.w, holder));
 }
+#define KEY(j, c) from(k, j, c, group)
+#define VALUE(j, c) from(v, j, c, group)
+#define USABLE(j) subgroupShuffle(usable, group + uint(j * spread))
+#else
+#define KEY(j, c) texelFetch(key_value, texel_of(first_key + b + j, head + c) + push.key_column)
+#define VALUE(j, c) texelFetch(key_value, texel_of(first_key + b + j, head + c) + push.value_column)
+#define USABLE(j) texelFetch(valid, first_valid + b + j).w
+#endif
+
+int texel_of(int key, int column) { return key * push.key_value_stride + column; }
 
 void main() {
   int lane = int(gl_LocalInvocationID.x);
@@ -79,26 +92,28 @@ void main() {
   int keys = few_keys != 0 ? few_keys : textureSize(valid);
 
   for (int b = 0; b < keys; b += block) {
-    int key = b + lane / spread % block;
+#ifndef PLAIN
+    int mine = b + lane / spread % block;
     vec4 k[share];
     vec4 v[share];
     [[unroll]] for (int c = 0; c < share; ++c) {
-      int texel = (first_key + key) * push.key_value_stride + head + lane % spread + c * spread;
+      int texel = texel_of(first_key + mine, head + lane % spread + c * spread);
       k[c] = texelFetch(key_value, texel + push.key_column);
       v[c] = texelFetch(key_value, texel + push.value_column);
     }
-    float usable = texelFetch(valid, first_valid + key).w;
+    float usable = texelFetch(valid, first_valid + mine).w;
+#endif
 
     float score[queries * block];
     [[unroll]] for (int j = 0; j < block; ++j) {
       [[unroll]] for (int i = 0; i < queries; ++i) score[i * block + j] = 0.0;
       [[unroll]] for (int c = 0; c < kHeadTexels; ++c) {
-        vec4 key = from(k, j, c, group);
+        vec4 key = KEY(j, c);
         [[unroll]] for (int i = 0; i < queries; ++i) {
           score[i * block + j] += dot(q[i * kHeadTexels + c], key);
         }
       }
-      float seen = subgroupShuffle(usable, group + uint(j * spread));
+      float seen = USABLE(j);
       [[unroll]] for (int i = 0; i < queries; ++i) {
         score[i * block + j] = seen < 0.5 ? kLowest : score[i * block + j];
       }
@@ -121,7 +136,7 @@ void main() {
     // Texel by texel: what is summed up stays in registers for all keys of the block.
     [[unroll]] for (int c = 0; c < kHeadTexels; ++c) {
       [[unroll]] for (int j = 0; j < block; ++j) {
-        vec4 value = from(v, j, c, group);
+        vec4 value = VALUE(j, c);
         [[unroll]] for (int i = 0; i < queries; ++i) {
           total[i * kHeadTexels + c] += score[i * block + j] * value;
         }

@@ -18,8 +18,10 @@
 // is read from the weights' size, so that one kernel serves every layer: CPU drivers compile long.
 #version 450
 #extension GL_GOOGLE_include_directive : require
+#ifndef PLAIN  // without subgroups: see vulkan/shader_code.hpp
 #extension GL_KHR_shader_subgroup_basic : require
 #extension GL_KHR_shader_subgroup_shuffle : require
+#endif
 #extension GL_EXT_control_flow_attributes : require
 #include "block_image.glsl"
 #include "push_constants.h"
@@ -103,6 +105,7 @@ void main() {
         seen[0] = left < 0 ? vec4(0) : before;
         seen[columns - 1] = right < 0 ? vec4(0) : after;
       }
+#ifndef PLAIN
       vec4 held[held_texels];
       if (hands_round != 0) {
         [[unroll]] for (int f = 0; f < held_texels; ++f) {
@@ -110,16 +113,20 @@ void main() {
           held[f] = texelFetch(weight_texels, next_weight + mine);
         }
       }
+#endif
       [[unroll]] for (int j = 0; j < kOutputs; ++j) {
         [[unroll]] for (int t = 0; t < taps_across; ++t) {
           int of = t * kOutputs + j;
           vec4 w;
+#ifndef PLAIN
           if (hands_round != 0) {
             vec4 texel = held[of / lanes];
             uint holder = uint(of % lanes);
             w = vec4(subgroupShuffle(texel.x, holder), subgroupShuffle(texel.y, holder),
                      subgroupShuffle(texel.z, holder), subgroupShuffle(texel.w, holder));
-          } else {
+          } else
+#endif
+          {
             w = weight[next_weight + of];
           }
           [[unroll]] for (int c = 0; c < 4; ++c) {

@@ -7,7 +7,8 @@
 //   in, out   nearest   [capacity]     squared distance to the picks so far
 //   out       farthest  [groups, 4]    (point, distance) of each workgroup's farthest, this pass
 //             visible   [256, 4]       row push.row is the pick that the last pass found
-//   dispatch  indirect, one subgroup a workgroup, `share` consecutive points each
+//   dispatch  indirect, one subgroup a workgroup (of a plain kernel: a workgroup of that many
+//             lanes), `share` consecutive points each
 //   twin      engine/reference/farthest_points.cpp; equal bit for bit
 //
 // The first pass measures from the centroid and only finds its farthest point. Every later pass
@@ -16,8 +17,10 @@
 // A lane's loops: share / lanes + groups / lanes turns, far below lavapipe's 65,535; see the host.
 #version 450
 #extension GL_GOOGLE_include_directive : require
+#ifndef PLAIN  // without subgroups: see vulkan/shader_code.hpp
 #extension GL_KHR_shader_subgroup_basic : require
 #extension GL_KHR_shader_subgroup_shuffle : require
+#endif
 #extension GL_EXT_control_flow_attributes : require
 #include "push_constants.h"
 
@@ -50,11 +53,25 @@ float nearest_at(int index) {
   return nearest[index];
 }
 
+#ifdef PLAIN
+shared float handed[lanes];
+shared int handed_index[lanes];
+#endif
+
 // The largest value over all lanes, the lowest index of equals.
 void over_lanes(inout float value, inout int index) {
   for (uint step = 1; step < uint(lanes); step *= 2) {
+#ifndef PLAIN
     float other = subgroupShuffle(value, gl_LocalInvocationID.x ^ step);
     int other_index = subgroupShuffle(index, gl_LocalInvocationID.x ^ step);
+#else
+    barrier();
+    handed[gl_LocalInvocationID.x] = value;
+    handed_index[gl_LocalInvocationID.x] = index;
+    barrier();
+    float other = handed[gl_LocalInvocationID.x ^ step];
+    int other_index = handed_index[gl_LocalInvocationID.x ^ step];
+#endif
     bool take = other > value || (other == value && other_index < index);
     value = take ? other : value;
     index = take ? other_index : index;

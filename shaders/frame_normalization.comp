@@ -6,8 +6,10 @@
 //   dispatch  (1, 1, 1): one subgroup; lane l adds the points l, l + lanes, ...
 //   twin      engine/reference/normalization.cpp; agrees to 1e-5 relative
 #version 450
+#ifndef PLAIN  // without subgroups: see vulkan/shader_code.hpp
 #extension GL_KHR_shader_subgroup_basic : require
 #extension GL_KHR_shader_subgroup_shuffle : require
+#endif
 #extension GL_EXT_control_flow_attributes : require
 
 layout(constant_id = 0) const int lanes = 8;
@@ -19,10 +21,21 @@ layout(binding = 1, std430) writeonly buffer Norm { vec4 norm[]; };
 const int kPoints = 256;
 const float kSmallestScale = 1e-6;
 
+#ifdef PLAIN
+shared float handed[lanes];
+#endif
+
 // The sum over all lanes, in a fixed tree, on every lane.
 float all_lanes(float value) {
   for (uint step = 1; step < uint(lanes); step *= 2) {
+#ifndef PLAIN
     value += subgroupShuffle(value, gl_LocalInvocationID.x ^ step);
+#else
+    barrier();
+    handed[gl_LocalInvocationID.x] = value;
+    barrier();
+    value += handed[gl_LocalInvocationID.x ^ step];
+#endif
   }
   return value;
 }

@@ -3,7 +3,7 @@
 //   thesis    Sec. 3.4, every dense layer of the cross-attention and the encoder
 //   in        x         [rows, K]  f32
 //             weight    [N, K]     f32, or f16 where half_weights is set
-//             bias      [N]        f32
+//             bias      [N]        f32, as RGBA texels
 //             residual  [rows, N]  f32; may be y
 //   out       y         [rows, N]  f32
 //   dispatch  (rows / tile_rows rounded up, N / tile_columns, 1), a workgroup of
@@ -32,7 +32,7 @@ layout(local_size_x_id = 0) in;
 layout(push_constant) uniform Push { TileGemmPush push; };
 layout(binding = 0, std430) readonly buffer X { vec4 x[]; };
 layout(binding = 1, std430) readonly buffer Weight { uvec4 weight[]; };  // 4 floats or 8 halves
-layout(binding = 2, std430) readonly buffer Bias { vec4 bias[]; };
+layout(binding = 2) uniform samplerBuffer bias;  // the fifth storage buffer is one too many for some
 layout(binding = 3, std430) readonly buffer Residual { vec4 residual[]; };
 layout(binding = 4, std430) writeonly buffer Y { vec4 y[]; };
 
@@ -57,7 +57,7 @@ void main() {
   int quad = first_column / 4 + tx;
 
   vec4 sum[4];
-  [[unroll]] for (int i = 0; i < 4; ++i) sum[i] = bias[quad];
+  [[unroll]] for (int i = 0; i < 4; ++i) sum[i] = texelFetch(bias, quad);
 
   vec4 x_next[x_share];
   uvec4 w_next[w_share];

@@ -48,7 +48,8 @@ void print_device(const DeviceReport& device) {
   row("driver", device.driver);
   row("Vulkan", device.api_version);
   row("UUID", device.uuid);
-  row("subgroup", std::to_string(device.subgroup_size));
+  row("subgroup", fmt::format("{}{}", device.subgroup_size,
+                              device.shuffles ? "" : ", without shuffles: plain kernels"));
   row("lacks", device.lacks.empty() ? "nothing" : fmt::format("{}", fmt::join(device.lacks, ", ")));
   row("self-test", verdict(device));
   tell("\n");
@@ -82,6 +83,7 @@ void print_json(const DeviceSurvey& survey) {
                        {"api_version", device.api_version},
                        {"uuid", device.uuid},
                        {"subgroup_size", device.subgroup_size},
+                       {"shuffles", device.shuffles},
                        {"lacks", device.lacks},
                        {"self_test_run", device.self_test_run},
                        {"self_test_passed", device.self_test_passed},

@@ -32,12 +32,15 @@ std::uint32_t shared_bytes(const GemmChoice& choice) {
 
 bool fits(const PhysicalDevice& device, const GemmChoice& choice) {
   const auto threads = static_cast<std::uint32_t>(threads_of(choice, device));
-  return threads <= device.limits.maxComputeWorkGroupInvocations &&
+  const std::uint32_t buffers = choice.family == GemmFamily::kMatrix ? 5 : 4;
+  return buffers <= device.limits.maxPerStageDescriptorStorageBuffers &&
+         threads <= device.limits.maxComputeWorkGroupInvocations &&
          threads <= device.limits.maxComputeWorkGroupSize[0] &&
          shared_bytes(choice) <= device.limits.maxComputeSharedMemorySize;
 }
 
 void add_simd(const PhysicalDevice& device, GemmChoice choice, std::vector<GemmChoice>& to) {
+  if (!device.shuffles) return;
   choice.columns = std::min(choice.columns, kPanelColumns / device.lanes);
   if (choice.columns >= kFours) to.push_back(choice);
 }

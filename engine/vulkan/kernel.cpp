@@ -50,11 +50,13 @@ Result<Owned<VkPipelineLayout>> create_layout(const Device& device, const Kernel
 
 Result<Owned<VkPipeline>> create_pipeline(const Device& device, const KernelSpec& spec,
                                           VkPipelineLayout layout) {
+  const bool plain = !device.facts().shuffles && !spec.shader.plain.empty();
+  const auto words = plain ? spec.shader.plain : spec.shader.words;
   const VkShaderModuleCreateInfo module_info{.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO,
                                              .pNext = nullptr,
                                              .flags = 0,
-                                             .codeSize = spec.shader.words.size_bytes(),
-                                             .pCode = spec.shader.words.data()};
+                                             .codeSize = words.size_bytes(),
+                                             .pCode = words.data()};
   const auto module =
       device.create(device.api().vkCreateShaderModule, device.api().vkDestroyShaderModule,
                     module_info, VK_OBJECT_TYPE_SHADER_MODULE, spec.shader.name);

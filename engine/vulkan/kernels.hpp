@@ -36,17 +36,8 @@ struct GemmCall {
   }
 };
 
-/// Of the kernels for GPUs: a row's floats lie side by side.
-struct TileOperands {
-  Reads x;
-  Reads weight;
-  Reads bias;
-  Reads residual;
-  Writes y;
-  [[nodiscard]] std::array<Binding, 5> bindings() const { return {x, weight, bias, residual, y}; }
-};
-
-struct TileGemmCall : TileOperands {
+/// As the next one, for GPUs: a row's floats lie side by side.
+struct TileGemmCall {
   struct Constants {
     int threads;
     int tile_rows;
@@ -60,9 +51,16 @@ struct TileGemmCall : TileOperands {
   using Push = TileGemmPush;
   static constexpr bool kUsesSubgroups = false;
   static ShaderCode shader() { return shaders::tile_gemm(); }
+
+  Reads x;
+  Reads weight;
+  Texels bias;
+  Reads residual;
+  Writes y;
+  [[nodiscard]] std::array<Binding, 5> bindings() const { return {x, weight, bias, residual, y}; }
 };
 
-struct MatrixGemmCall : TileOperands {
+struct MatrixGemmCall {
   struct Constants {
     int threads;
     int tile_rows;
@@ -76,6 +74,13 @@ struct MatrixGemmCall : TileOperands {
   using Push = TileGemmPush;
   static constexpr bool kUsesSubgroups = true;
   static ShaderCode shader() { return shaders::matrix_gemm(); }
+
+  Reads x;
+  Reads weight;
+  Reads bias;
+  Reads residual;
+  Writes y;
+  [[nodiscard]] std::array<Binding, 5> bindings() const { return {x, weight, bias, residual, y}; }
 };
 
 struct NarrowCall {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 #include <optional>
 #include <string_view>
 
@@ -14,6 +15,8 @@ namespace {
 constexpr int kFewestLanes = 4;
 constexpr int kMostLanes = 128;
 constexpr std::uint32_t kGpuLanes = 32;  // where a GPU lets us choose
+constexpr std::uint32_t kFewestPlainLanes = 8;
+constexpr std::uint32_t kMostPlainLanes = 64;
 
 DeviceKind kind_of(VkPhysicalDeviceType type) {
   switch (type) {
@@ -70,11 +73,16 @@ void choose_lanes(const InstanceTable& api, PhysicalDevice& device,
                   const VkPhysicalDeviceSubgroupProperties& subgroup) {
   constexpr VkSubgroupFeatureFlags kNeeded =
       VK_SUBGROUP_FEATURE_BASIC_BIT | VK_SUBGROUP_FEATURE_SHUFFLE_BIT;
-  if ((subgroup.supportedStages & VK_SHADER_STAGE_COMPUTE_BIT) == 0 ||
-      (subgroup.supportedOperations & kNeeded) != kNeeded) {
-    device.report.lacks.emplace_back("subgroup shuffles in compute shaders");
-  }
   std::uint32_t lanes = subgroup.subgroupSize;
+  device.report.subgroup_size = static_cast<int>(lanes);
+  device.shuffles = (subgroup.supportedStages & VK_SHADER_STAGE_COMPUTE_BIT) != 0 &&
+                    (subgroup.supportedOperations & kNeeded) == kNeeded;
+  device.report.shuffles = device.shuffles;
+  if (!device.shuffles) {  // plain kernels: any number does
+    device.lanes = static_cast<int>(
+        std::clamp(std::bit_ceil(std::max(lanes, 1U)), kFewestPlainLanes, kMostPlainLanes));
+    return;
+  }
   if (has_extension(api, device.handle, VK_EXT_SUBGROUP_SIZE_CONTROL_EXTENSION_NAME)) {
     VkPhysicalDeviceSubgroupSizeControlPropertiesEXT sizes{};
     sizes.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_SIZE_CONTROL_PROPERTIES_EXT;

@@ -19,9 +19,10 @@ struct PhysicalDevice {
   std::uint32_t driver_version = 0;
   std::uint32_t queue_family = 0;    ///< has compute
   std::uint32_t timestamp_bits = 0;  ///< 0: no timestamps
-  int lanes = 0;                     ///< subgroup size in use, 4 to 128
-  bool fixes_lanes = false;          ///< by VK_EXT_subgroup_size_control
-  bool full_subgroups = false;       ///< ditto
+  int lanes = 0;                ///< subgroup size in use, 4 to 128; without shuffles a workgroup's
+  bool shuffles = true;         ///< between the lanes of a subgroup, in compute shaders
+  bool fixes_lanes = false;     ///< by VK_EXT_subgroup_size_control
+  bool full_subgroups = false;  ///< ditto
   /// Of cooperative matrices, f16 in and f32 out, by a subgroup: 16, 8, or 0 where there are none.
   int matrix_edge = 0;
   std::string driver_uuid;  ///< 32 hexadecimal digits

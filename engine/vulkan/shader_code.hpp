@@ -10,6 +10,9 @@ namespace flowdlo::vulkan {
 struct ShaderCode {
   const char* name = nullptr;
   std::span<const std::uint32_t> words;
+  /// The same without subgroup shuffles, for devices that have none: what lanes hand to each other
+  /// goes by shared memory, or all read it. Empty where `words` need none either.
+  std::span<const std::uint32_t> plain{};
 };
 
 namespace shaders {

@@ -50,7 +50,7 @@ void record_tile_gemm(Plan& plan, const ops::Linear& op, const DenseLayer& layer
                   push, groups);
     return;
   }
-  plan.dispatch(TileGemmCall{x, weight, bias, residual, y},
+  plan.dispatch(TileGemmCall{x, weight, {plan.whole(layer.bias)}, residual, y},
                 {.threads = threads,
                  .tile_rows = tile.rows,
                  .tile_columns = tile.columns,

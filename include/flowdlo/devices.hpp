@@ -18,6 +18,7 @@ struct DeviceReport {
   std::string driver;       ///< name and version
   std::string api_version;  ///< "1.3.230"
   int subgroup_size = 0;
+  bool shuffles = true;            ///< false: kernels run that need none
   std::vector<std::string> lacks;  ///< what FlowDLO needs and the device has not; empty: usable
   bool self_test_run = false;      ///< false: not asked for, or the device lacks something
   bool self_test_passed = false;

@@ -198,6 +198,7 @@ class Device:
     driver: str  #: name and version
     api_version: str
     subgroup_size: int
+    shuffles: bool  #: False: kernels run that need none
     lacks: tuple[str, ...]  #: what flowdlo needs and the device has not; empty: usable
     self_test_passed: bool | None  #: None: not run
     self_test: str  #: verdict in words

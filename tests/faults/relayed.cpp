@@ -39,6 +39,7 @@ void Relayed::SetUp() {
   relay()->reset();
   relay()->pose_as_gpu(false);
   relay()->hide(false);
+  relay()->limit({});
 }
 
 void Relayed::TearDown() {
@@ -46,6 +47,7 @@ void Relayed::TearDown() {
   relay()->reset();
   relay()->pose_as_gpu(false);
   relay()->hide(false);
+  relay()->limit({});
   EXPECT_EQ(relay()->alive(), 0) << "objects of Vulkan are left";
 }
 

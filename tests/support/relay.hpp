@@ -8,6 +8,22 @@
 
 namespace flowdlo::testing {
 
+/// What a device says of itself where it is clamped. 0: as the other driver says.
+struct RelayLimits {
+  bool shuffles = true;      ///< between lanes of a subgroup
+  bool size_control = true;  ///< of subgroups
+  bool float_texels = true;  ///< uniform texel buffers of RGBA32F
+  std::uint32_t subgroup_size = 0;
+  std::uint32_t shared_bytes = 0;  ///< of a workgroup
+  std::uint32_t invocations = 0;   ///< of a workgroup
+  std::uint32_t push_bytes = 0;
+  std::uint32_t texels = 0;           ///< of a texel buffer
+  std::uint32_t storage_buffers = 0;  ///< of a stage
+  std::uint32_t api_version = 0;
+  std::uint32_t least_lanes = 0;  ///< of a subgroup, where its size may be chosen
+  std::uint32_t most_lanes = 0;
+};
+
 struct RelayTable {
   /// Forgets every count and the fault; objects that are alive stay so.
   void (*reset)();
@@ -24,6 +40,8 @@ struct RelayTable {
   long (*alive)();
   /// Calls itself a discrete GPU, as long as this is set, whatever the other one is.
   void (*pose_as_gpu)(bool);
+  /// From now on devices are clamped so.
+  void (*limit)(const RelayLimits&);
   /// There is no device, as long as this is set.
   void (*hide)(bool);
 };

@@ -1,5 +1,6 @@
 #include <dlfcn.h>
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <cstdlib>
@@ -37,6 +38,7 @@ struct State {
   std::atomic<long> alive = 0;
   std::atomic<bool> poses_as_gpu = false;
   std::atomic<bool> hides = false;
+  RelayLimits limits;  // set while nobody calls
 };
 
 State& state() {
@@ -142,6 +144,9 @@ using CreateInstance = Relayed<kCreateInstance, PFN_vkCreateInstance>;
 using GetDeviceProcAddr = Relayed<k_vkGetDeviceProcAddr, PFN_vkGetDeviceProcAddr>;
 using ListDevices = Relayed<k_vkEnumeratePhysicalDevices, PFN_vkEnumeratePhysicalDevices>;
 using Properties = Relayed<k_vkGetPhysicalDeviceProperties, PFN_vkGetPhysicalDeviceProperties>;
+using Features2 = Relayed<k_vkGetPhysicalDeviceFeatures2, PFN_vkGetPhysicalDeviceFeatures2>;
+using FormatProperties =
+    Relayed<k_vkGetPhysicalDeviceFormatProperties, PFN_vkGetPhysicalDeviceFormatProperties>;
 using Properties2 = Relayed<k_vkGetPhysicalDeviceProperties2, PFN_vkGetPhysicalDeviceProperties2>;
 
 VKAPI_ATTR VkResult VKAPI_CALL list_devices(VkInstance instance, std::uint32_t* count,
@@ -151,7 +156,21 @@ VKAPI_ATTR VkResult VKAPI_CALL list_devices(VkInstance instance, std::uint32_t* 
   return VK_SUCCESS;
 }
 
+void clamp(std::uint32_t& value, std::uint32_t limit) {
+  if (limit != 0) value = std::min(value, limit);
+}
+
 void pose(VkPhysicalDeviceProperties& properties) {
+  const RelayLimits& asked = state().limits;
+  VkPhysicalDeviceLimits& limits = properties.limits;
+  clamp(limits.maxComputeSharedMemorySize, asked.shared_bytes);
+  clamp(limits.maxComputeWorkGroupInvocations, asked.invocations);
+  for (std::uint32_t& size : limits.maxComputeWorkGroupSize) clamp(size, asked.invocations);
+  clamp(limits.maxPushConstantsSize, asked.push_bytes);
+  clamp(limits.maxTexelBufferElements, asked.texels);
+  clamp(limits.maxPerStageDescriptorStorageBuffers, asked.storage_buffers);
+  clamp(limits.maxDescriptorSetStorageBuffers, asked.storage_buffers);
+  clamp(properties.apiVersion, asked.api_version);
   if (!state().poses_as_gpu) return;
   properties.deviceType = VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU;
   std::strncpy(properties.deviceName, "Relayed GPU", sizeof(properties.deviceName) - 1);
@@ -162,15 +181,55 @@ VKAPI_ATTR void VKAPI_CALL properties(VkPhysicalDevice device, VkPhysicalDeviceP
   pose(*out);
 }
 
+/// Calls visit(part) of every structure of a chain that has this type.
+template <class Part, class Visit>
+void each_of(void* chain, VkStructureType type, const Visit& visit) {
+  for (auto* part = static_cast<VkBaseOutStructure*>(chain); part != nullptr; part = part->pNext) {
+    if (part->sType == type) visit(*reinterpret_cast<Part*>(part));
+  }
+}
+
 VKAPI_ATTR void VKAPI_CALL properties_2(VkPhysicalDevice device, VkPhysicalDeviceProperties2* out) {
   Properties2::next(device, out);
   pose(out->properties);
-  for (auto* part = static_cast<VkBaseOutStructure*>(out->pNext); part != nullptr;
-       part = part->pNext) {
-    if (part->sType != VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES) continue;
-    auto* const driver = reinterpret_cast<VkPhysicalDeviceDriverProperties*>(part);
-    if (state().poses_as_gpu) driver->driverID = VK_DRIVER_ID_AMD_PROPRIETARY;
-  }
+  const RelayLimits& asked = state().limits;
+  each_of<VkPhysicalDeviceDriverProperties>(
+      out->pNext, VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES, [](auto& driver) {
+        if (state().poses_as_gpu) driver.driverID = VK_DRIVER_ID_AMD_PROPRIETARY;
+      });
+  const auto limit_operations = [&](VkSubgroupFeatureFlags& operations, std::uint32_t& size) {
+    if (!asked.shuffles) operations = VK_SUBGROUP_FEATURE_BASIC_BIT;
+    if (asked.subgroup_size != 0) size = asked.subgroup_size;
+  };
+  each_of<VkPhysicalDeviceSubgroupProperties>(
+      out->pNext, VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_PROPERTIES, [&](auto& subgroup) {
+        limit_operations(subgroup.supportedOperations, subgroup.subgroupSize);
+      });
+  each_of<VkPhysicalDeviceSubgroupSizeControlProperties>(
+      out->pNext, VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_SIZE_CONTROL_PROPERTIES,
+      [&](auto& sizes) {
+        if (asked.least_lanes != 0) sizes.minSubgroupSize = asked.least_lanes;
+        if (asked.most_lanes != 0) sizes.maxSubgroupSize = asked.most_lanes;
+      });
+  each_of<VkPhysicalDeviceVulkan11Properties>(
+      out->pNext, VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_1_PROPERTIES,
+      [&](auto& all) { limit_operations(all.subgroupSupportedOperations, all.subgroupSize); });
+}
+
+VKAPI_ATTR void VKAPI_CALL features_2(VkPhysicalDevice device, VkPhysicalDeviceFeatures2* out) {
+  Features2::next(device, out);
+  if (state().limits.size_control) return;
+  each_of<VkPhysicalDeviceSubgroupSizeControlFeatures>(
+      out->pNext, VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_SIZE_CONTROL_FEATURES,
+      [](auto& control) { control.subgroupSizeControl = control.computeFullSubgroups = VK_FALSE; });
+}
+
+VKAPI_ATTR void VKAPI_CALL format_properties(VkPhysicalDevice device, VkFormat format,
+                                             VkFormatProperties* out) {
+  FormatProperties::next(device, format, out);
+  if (state().limits.float_texels || format != VK_FORMAT_R32G32B32A32_SFLOAT) return;
+  out->bufferFeatures &=
+      ~static_cast<VkFormatFeatureFlags>(VK_FORMAT_FEATURE_UNIFORM_TEXEL_BUFFER_BIT);
 }
 
 /// Ours in the place of `theirs`, where this relay minds the function.
@@ -200,6 +259,10 @@ PFN_vkVoidFunction relayed(std::string_view name, PFN_vkVoidFunction theirs) {
   if (name == "vkGetPhysicalDeviceProperties") return put_between<Properties>(theirs, &properties);
   if (name == "vkGetPhysicalDeviceProperties2" || name == "vkGetPhysicalDeviceProperties2KHR") {
     return put_between<Properties2>(theirs, &properties_2);
+  }
+  if (name == "vkGetPhysicalDeviceFeatures2") return put_between<Features2>(theirs, &features_2);
+  if (name == "vkGetPhysicalDeviceFormatProperties") {
+    return put_between<FormatProperties>(theirs, &format_properties);
   }
   if (name == "vkCreateInstance") return put_between<CreateInstance>(theirs);
 #define RELAY_PUT(function) \
@@ -282,6 +345,7 @@ __attribute__((visibility("default"))) const RelayTable* relay() {
           },
       .alive = [] { return state().alive.load(); },
       .pose_as_gpu = [](bool poses) { state().poses_as_gpu = poses; },
+      .limit = [](const RelayLimits& limits) { state().limits = limits; },
       .hide = [](bool hides) { state().hides = hides; },
   };
   return &table;

@@ -79,6 +79,7 @@ TEST(GemmCandidates, BeginWithShufflesOnCpuDriversOnly) {
   device.limits.maxComputeWorkGroupInvocations = 1024;
   device.limits.maxComputeWorkGroupSize[0] = 1024;
   device.limits.maxComputeSharedMemorySize = 49152;
+  device.limits.maxPerStageDescriptorStorageBuffers = 16;
   device.report.kind = DeviceKind::kCpu;
   EXPECT_EQ(gemm_candidates(device).front().family, GemmFamily::kSimd);
   device.report.kind = DeviceKind::kDiscreteGpu;
@@ -92,11 +93,29 @@ TEST(GemmCandidates, FitTheLimitsOfASmallDevice) {
   device.limits.maxComputeWorkGroupInvocations = 128;  // what Vulkan promises
   device.limits.maxComputeWorkGroupSize[0] = 128;
   device.limits.maxComputeSharedMemorySize = 16384;
+  device.limits.maxPerStageDescriptorStorageBuffers = 4;
   for (const GemmChoice& choice : gemm_candidates(device)) {
     EXPECT_EQ(choice.family, GemmFamily::kTile) << "shuffles of 128 lanes do not fit a panel";
     EXPECT_LE(threads_of(choice, device), 128);
   }
   EXPECT_FALSE(gemm_candidates(device).empty());
+}
+
+TEST(GemmCandidates, NeedNoShufflesWhereThereAreNone) {
+  PhysicalDevice device;
+  device.lanes = 16;
+  device.shuffles = false;
+  device.limits.maxComputeWorkGroupInvocations = 256;
+  device.limits.maxComputeWorkGroupSize[0] = 256;
+  device.limits.maxComputeSharedMemorySize = 16384;
+  device.limits.maxPerStageDescriptorStorageBuffers = 4;
+  for (const DeviceKind kind : {DeviceKind::kCpu, DeviceKind::kIntegratedGpu}) {
+    device.report.kind = kind;
+    ASSERT_FALSE(gemm_candidates(device).empty());
+    for (const GemmChoice& choice : gemm_candidates(device)) {
+      EXPECT_EQ(choice.family, GemmFamily::kTile);
+    }
+  }
 }
 
 TEST(TileGemm, EqualsItsTwinInEveryShapeOfTheModel) {
