@@ -23,9 +23,10 @@ struct Own {
   std::map<std::string, Verdict> verdicts;
 };
 
+/// Never destroyed: a thread that comes back to a device may outlive what the process ends with.
 Own& own() {
-  static Own memory;
-  return memory;
+  static Own* const memory = new Own();
+  return *memory;
 }
 
 /// FNV-1a.

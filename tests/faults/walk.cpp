@@ -67,9 +67,11 @@ const std::vector<Fallible>& fallible() {
   return all;
 }
 
-std::set<long> numbers(long calls, Thoroughly how) {
+/// Of what fails below an instance always samples: where a driver lists its devices once and then
+/// no more, the loader 1.3.239 reads memory that is not there.
+std::set<long> numbers(long calls, Thoroughly how, bool below_instance) {
   std::set<long> chosen;
-  if (std::getenv("FLOWDLO_LONG_TESTS") != nullptr) {
+  if (std::getenv("FLOWDLO_LONG_TESTS") != nullptr && !below_instance) {
     for (long n = 1; n <= calls; ++n) chosen.insert(n);
   } else if (how == Thoroughly::kFirstAlone) {
     chosen = {1};
@@ -102,7 +104,7 @@ void walk(const Action& action, Thoroughly how, bool may_differ) {
   for (const auto& [function, results, layers] : fallible()) {
     if (calls[function] == 0) continue;
     ++functions;
-    for (const long number : numbers(calls[function], how)) {
+    for (const long number : numbers(calls[function], how, !layers)) {
       for (const VkResult result : results) {
         SCOPED_TRACE(std::string(function) + ", call " + std::to_string(number) + " of " +
                      std::to_string(calls[function]) + ": " + vulkan::name_of(result));
