@@ -14,6 +14,7 @@
 #include "geometry/quantile.hpp"
 #include "prior/contacts.hpp"
 #include "prior/depth_profile.hpp"
+#include "prior/ground.hpp"
 #include "prior/rope_radius.hpp"
 
 namespace flowdlo::prior {
@@ -55,6 +56,10 @@ class Measurement {
     rope.slant = slant_;
     rope.radius_m = radius_m_;
     describe(rope);
+    const std::vector<double> deep_m = too_deep_m(strip_, axis_m_, radius_m_);
+    for (std::size_t i = 0; i < deep_m.size(); ++i) {
+      rope.axis_m[i] = std::max(kLeastDepth_m, rope.axis_m[i] - deep_m[i]);
+    }
     return rope;
   }
 
