@@ -35,6 +35,7 @@ struct SynthOptions {
   std::uint64_t first = 0;
   std::uint64_t seed = 0;
   int frames_per_scene = 1;
+  bool matched = false;
   std::string scenario;
   fs::path sheet;
   int threads = 0;
@@ -132,8 +133,9 @@ class Crew {
     if (!there) return there.error();
     kept_ += folder_ != nullptr && *there ? 1 : 0;
     if (*there && !shown) return {};
-    auto frame = synth::make_frame(options_.split, options_.part, options_.seed, jobs_[k].index,
-                                   {.color = true, .frame = jobs_[k].frame});
+    auto frame =
+        synth::make_frame(options_.split, options_.part, options_.seed, jobs_[k].index,
+                          {.color = true, .frame = jobs_[k].frame, .matched = options_.matched});
     if (!frame) return frame.error();
     if (!*there) {
       if (auto saved = folder_->save(*frame); !saved) return saved;
@@ -222,6 +224,9 @@ void add_synth_command(CLI::App& app, ExitCode& exit_code) {
                    "Of one static scene; they differ in noise and light")
       ->capture_default_str()
       ->check(CLI::Range(1, 10000));
+  command->add_flag("--matched", options->matched,
+                    "Depth of stereo cameras by matching two infrared pictures, not by a model of "
+                    "their noise; takes a few seconds a scene");
   command->add_option("--scenario", options->scenario, "Scenes of one group only")
       ->type_name("NAME");
   command

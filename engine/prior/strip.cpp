@@ -6,8 +6,10 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "geometry/camera.hpp"
 #include "geometry/depth.hpp"
 #include "geometry/polyline.hpp"
+#include "geometry/quantile.hpp"
 
 namespace flowdlo::prior {
 namespace {
@@ -21,6 +23,11 @@ constexpr float kTangentWidths = 0.35F;  // to both sides
 constexpr float kEdgeWidths = 1.8F;      // how far the mask's edge is looked for
 constexpr float kOffAxisWidths = 0.3F;   // how far the path may leave the mask and still be on it
 constexpr float kBesidePx = 2.5F;        // beyond the mask's edge: clear of mixed pixels
+constexpr float kGroundFromPx = 5.0F;  // beyond the mask's edge, of an image 640 px wide: clear of
+                                       // what a window of a stereo camera mixes,
+constexpr float kGroundToPx = 10.0F;   // up to here
+constexpr int kLeastGround = 3;        // depths of one side
+constexpr float kSteepestGround = 2.7F;  // metres of depth a metre aside
 constexpr float kStrandWidths = 3.0F;    // stations farther apart along the path: other strands
 constexpr float kStrandPx = 4.0F;
 constexpr float kMostCells = 512;        // of the grid, to a side
@@ -47,6 +54,10 @@ class Image {
   [[nodiscard]] float depth_m(std::ptrdiff_t pixel) const {
     const float depth = frame_.depth_m[static_cast<std::size_t>(pixel)];
     return geometry::measured(depth) ? depth : 0;
+  }
+  [[nodiscard]] float scale() const { return geometry::pixel_scale(frame_.width); }
+  [[nodiscard]] Eigen::Vector3f point(const Vector2f& p, float depth_m) const {
+    return geometry::to_eigen(geometry::unproject(frame_.intrinsics, p.x(), p.y(), depth_m));
   }
   [[nodiscard]] Vector2f centre(std::ptrdiff_t pixel) const {
     return {static_cast<float>(pixel % frame_.width), static_cast<float>(pixel / frame_.width)};
@@ -100,6 +111,46 @@ float beyond_m(const Vector2f& p, const Vector2f& outward, const Image& image) {
   return count > 0 ? sum / static_cast<float>(count) : 0;
 }
 
+/// What lies beside the rope, on one side.
+struct Side {
+  float offset_px = 0;  ///< from the axis
+  float depth_m = 0;    ///< 0: unknown
+};
+
+/// The middle depth within the stretch of ground, which nothing of the mask may reach into.
+Side ground_beside(const Station& station, float direction, float edge_px, const Image& image) {
+  const auto from = static_cast<int>(std::lround(kGroundFromPx * image.scale()));
+  const auto to = static_cast<int>(std::lround(kGroundToPx * image.scale()));
+  std::vector<float> depths;
+  for (int step = 2; step <= to; ++step) {
+    const Vector2f p =
+        station.point_px + direction * (edge_px + static_cast<float>(step)) * station.normal;
+    if (image.masked(p)) return {};
+    if (step < from) continue;
+    const std::ptrdiff_t pixel = image.pixel(p);
+    const float depth_m = pixel < 0 ? 0 : image.depth_m(pixel);
+    if (depth_m > 0) depths.push_back(depth_m);
+  }
+  if (depths.size() < static_cast<std::size_t>(kLeastGround)) return {};
+  return {edge_px + 0.5F * static_cast<float>(from + to), geometry::median_of(depths)};
+}
+
+/// A line through what lies on both sides.
+void find_ground(const Image& image, Station& station) {
+  if (!station.bounded) return;
+  const Side left = ground_beside(station, -1, station.left_px, image);
+  const Side right = ground_beside(station, 1, station.right_px, image);
+  if (left.depth_m <= 0 || right.depth_m <= 0) return;
+  const float span_px = left.offset_px + right.offset_px;
+  const float rise_m = right.depth_m - left.depth_m;
+  const float middle_m = left.depth_m + rise_m * left.offset_px / span_px;
+  if (std::abs(rise_m) > kSteepestGround * span_px * station.aside * middle_m) return;
+  station.ground_m = middle_m;
+  station.ground_across =
+      image.point(station.point_px + right.offset_px * station.normal, right.depth_m) -
+      image.point(station.point_px - left.offset_px * station.normal, left.depth_m);
+}
+
 /// Walks from the axis to the mask's edges and keeps what lies within half a width.
 void read_across(int index, float width_px, const Image& image, Strip& strip) {
   Station& station = strip.stations[static_cast<std::size_t>(index)];
@@ -132,6 +183,7 @@ void read_across(int index, float width_px, const Image& image, Strip& strip) {
   station.right_px = right + start;
   station.bounded = left < most && right < most;
   const Vector2f& across = station.normal;
+  find_ground(image, station);
   station.beside_m = std::max(beyond_m(at(-station.left_px) - kBesidePx * across, -across, image),
                               beyond_m(at(station.right_px) + kBesidePx * across, across, image));
   const float half = 0.5F * width_px;

@@ -20,6 +20,9 @@ struct Station {
   float left_px = 0;             ///< how far the mask reaches along -normal,
   float right_px = 0;            ///< and along +normal
   float beside_m = 0;            ///< depth beyond the mask's edges, the deeper side's; 0: none
+  float ground_m = 0;            ///< depth under the axis of what is on both sides of the rope,
+                                 ///< clear of the mask by what a camera mixes; 0: unknown
+  Eigen::Vector3f ground_across{0, 0, 0};  ///< metres, from one side of it to the other
   bool masked = false;           ///< the path runs over the mask here
   bool bounded = false;          ///< the mask ends on both sides within reach
 };

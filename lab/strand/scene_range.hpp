@@ -17,6 +17,7 @@
 
 #include "field/network.hpp"
 #include "reference/program.hpp"
+#include "synth/synthetic_frame.hpp"
 #include "threads/count.hpp"
 #include "threads/team.hpp"
 #include "weights/field_weights.hpp"
@@ -29,6 +30,7 @@ struct SceneRange {
   std::uint64_t first = 0;
   std::uint64_t scenes = 300;
   int threads = 0;  ///< 0: one a core
+  std::string scenario;  ///< of these scenes alone; empty: all
 };
 
 inline void add_options(CLI::App& app, SceneRange& range) {
@@ -39,6 +41,7 @@ inline void add_options(CLI::App& app, SceneRange& range) {
       ->check(CLI::IsMember({"training", "validation"}));
   app.add_option("--first", range.first, "Index of the first scene");
   app.add_option("--scenes", range.scenes, "How many")->check(CLI::Range(1, 1000000));
+  app.add_option("--scenario", range.scenario, "Leave out the others, such as: coil");
   app.add_option("--threads", range.threads, "0: one a core")->check(CLI::Range(0, 1024));
 }
 
@@ -57,6 +60,14 @@ inline void add_options(CLI::App& app, SceneRange& range) {
   return field::Network::create(weights, [] { return reference::create_program(1); });
 }
 
+/// Whether the scene is one of those that are asked for.
+[[nodiscard]] inline bool wanted(const SceneRange& range, std::uint64_t index) {
+  if (range.scenario.empty()) return true;
+  const auto scenario =
+      synth::scenario_of(synth::Split::kWide, *synth::part_of(range.part), 0, index);
+  return scenario && *scenario == range.scenario;
+}
+
 /// What `measure(index, network)` makes of each scene, by index; scenes that fail are told on
 /// stderr and left out. An Outcome has its scene's `index`.
 template <class Outcome, class Measure>
@@ -69,6 +80,7 @@ std::vector<Outcome> over_scenes(const SceneRange& range,
   threads::work_together(threads::count(range.threads), [&](int) {
     auto network = one_network(weights);
     for (std::uint64_t i = next++; i < range.scenes && network; i = next++) {
+      if (!wanted(range, range.first + i)) continue;
       Result<Outcome> outcome = measure(range.first + i, *network);
       const std::lock_guard lock(mutex);
       if (outcome) {

@@ -182,4 +182,16 @@ std::vector<float> measured_depth(const View& view, const Picture& ideal,
   return depth_m;
 }
 
+std::vector<float> spoiled_depth(const View& view, const Picture& ideal,
+                                 std::span<const Rope> ropes, const DepthFaults& faults,
+                                 std::vector<float> depth_m, std::uint32_t seed) {
+  const PixelNoise noise(seed);
+  DepthFaults left = faults;
+  left.sunk.clear();  // matching has done that
+  spoil_rope(view, ideal, left, noise, depth_m);
+  punch_holes(view, ropes, faults.holes, noise, depth_m);
+  round_to_units(faults.whole_mm, depth_m);
+  return depth_m;
+}
+
 }  // namespace flowdlo::synth

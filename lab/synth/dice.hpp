@@ -20,7 +20,16 @@ struct SceneKey {
 inline constexpr std::uint64_t kMostScenes = 1ULL << 40;
 
 /// What the numbers are for: a change in one use leaves the others' numbers alone.
-enum class Use : std::uint8_t { kScenario, kRope, kView, kThings, kSensor, kMask, kLook };
+enum class Use : std::uint8_t {
+  kScenario,
+  kRope,
+  kView,
+  kThings,
+  kSensor,
+  kMask,
+  kLook,
+  kInfrared
+};
 
 class Dice {
  public:

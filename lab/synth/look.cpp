@@ -96,19 +96,6 @@ struct Shader {
   }
 };
 
-// Two sets of strands that wind around the rope.
-float braid(const Curve& curve, const Surface& seen, const Vector3f& point, double radius_m) {
-  const auto& points = curve.points;
-  const auto i = std::min(points.size() - 2, static_cast<std::size_t>(seen.along));
-  const Vector3d tangent = (points[i + 1] - points[i]).normalized();
-  const Vector3d side = tangent.cross(Vector3d::UnitZ()).normalized();
-  const Vector3d out = point.cast<double>() - points[i];
-  const double angle = std::atan2(out.dot(tangent.cross(side)), out.dot(side));
-  const double turns = static_cast<double>(seen.along) * curve.step_m / radius_m;
-  const double weave = std::sin(turns * 1.6 + 3 * angle) * std::sin(turns * 1.6 - 3 * angle);
-  return 1.0F + 0.12F * static_cast<float>(weave);
-}
-
 /// [height, width]
 std::vector<bool> within(std::span<const Window> windows, const View& view) {
   const int width = view.sensor->width;
@@ -130,6 +117,18 @@ std::uint8_t byte(float value) {
 }
 
 }  // namespace
+
+float braid(const Curve& curve, const Surface& seen, const Vector3f& point, double radius_m) {
+  const auto& points = curve.points;
+  const auto i = std::min(points.size() - 2, static_cast<std::size_t>(seen.along));
+  const Vector3d tangent = (points[i + 1] - points[i]).normalized();
+  const Vector3d side = tangent.cross(Vector3d::UnitZ()).normalized();
+  const Vector3d out = point.cast<double>() - points[i];
+  const double angle = std::atan2(out.dot(tangent.cross(side)), out.dot(side));
+  const double turns = static_cast<double>(seen.along) * curve.step_m / radius_m;
+  const double weave = std::sin(turns * 1.6 + 3 * angle) * std::sin(turns * 1.6 - 3 * angle);
+  return 1.0F + 0.12F * static_cast<float>(weave);
+}
 
 const Material& draw_material(Dice& dice) {
   return materials()[static_cast<std::size_t>(dice.integer(0, 4))];

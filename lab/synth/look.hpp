@@ -20,6 +20,10 @@ struct Material {
 /// One of the thesis' five, Sec. 4.1.1.
 [[nodiscard]] const Material& draw_material(Dice& dice);
 
+/// What two sets of strands that wind around a rope make of its surface where `point` is: about 1.
+[[nodiscard]] float braid(const Curve& curve, const Surface& seen, const Eigen::Vector3f& point,
+                          double radius_m);
+
 /// [height, width, 3], black outside the windows; `materials` are the ropes'. The light, the
 /// ground's texture and the camera's noise come from `dice`.
 [[nodiscard]] std::vector<std::uint8_t> colored(

@@ -13,6 +13,7 @@
 #include "synth/look.hpp"
 #include "synth/mask_segmenter.hpp"
 #include "synth/rope.hpp"
+#include "synth/stereo_pair.hpp"
 #include "synth/thing.hpp"
 #include "synth/tracer.hpp"
 #include "synth/view.hpp"
@@ -156,11 +157,12 @@ class Scene {
       : key_(key), look_(key, Use::kLook), scenario_(scenario) {}
 
   Result<void> set_up();
-  [[nodiscard]] SyntheticFrame taken(const Render& render) const;
+  [[nodiscard]] Result<SyntheticFrame> taken(const Render& render) const;
 
  private:
   Result<bool> stage_once(Dice& ropes, Dice& views, Dice& dice);
   void choose_materials();
+  [[nodiscard]] Result<std::vector<float>> depth(const Render& render, Meta& meta) const;
 
   SceneKey key_;
   Dice look_;
@@ -218,8 +220,26 @@ Result<void> Scene::set_up() {
                            key_.index, kAttempts)};
 }
 
-SyntheticFrame Scene::taken(const Render& render) const {
+/// As the scene's camera measures it.
+Result<std::vector<float>> Scene::depth(const Render& render, Meta& meta) const {
   Dice sensor(key_, Use::kSensor, render.frame);
+  const View& view = stage_.view;
+  const auto rig = render.matched ? rig_of(*view.sensor) : std::nullopt;
+  if (!rig) {
+    return measured_depth(view, picture_, stage_.ropes, stage_.faults.depth, sensor.word());
+  }
+  Dice dice(key_, Use::kInfrared, render.frame);
+  const auto eyes = infrared(view, *rig, stage_.ropes, stage_.things, dice);
+  if (!eyes) return eyes.error();
+  meta.camera += ", matched";
+  float nearest_m = static_cast<float>(view.sensor->farthest_m);
+  for (const float z : picture_.depth_m) nearest_m = z > 0 ? std::min(nearest_m, z) : nearest_m;
+  return spoiled_depth(view, picture_, stage_.ropes, stage_.faults.depth,
+                       matched(view, *rig, *eyes, 0.95 * static_cast<double>(nearest_m)),
+                       sensor.word());
+}
+
+Result<SyntheticFrame> Scene::taken(const Render& render) const {
   Dice mask(key_, Use::kMask, render.frame);
   const View& view = stage_.view;
   SyntheticFrame result;
@@ -230,7 +250,9 @@ SyntheticFrame Scene::taken(const Render& render) const {
   folder.width = view.sensor->width;
   folder.height = view.sensor->height;
   folder.intrinsics = view.camera;
-  folder.depth_m = measured_depth(view, picture_, stage_.ropes, stage_.faults.depth, sensor.word());
+  auto measured = depth(render, result.meta);
+  if (!measured) return measured.error();
+  folder.depth_m = *std::move(measured);
   folder.mask = segmented_mask(view, picture_, stage_.faults.mask, mask.word());
   for (std::size_t k = 0; k < view.curves.size(); ++k) {
     const Rope& rope = stage_.ropes[k];
