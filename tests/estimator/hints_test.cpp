@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 #include <opencv2/imgproc.hpp>
+#include <set>
 #include <stdexcept>
 
 #include "flowdlo/estimator.hpp"
@@ -203,6 +204,30 @@ TEST_F(Hinted, AFrameThatLeavesItOpenFollowsTheFrameBefore) {
   }
   EXPECT_GE(followed, 2);
   EXPECT_FALSE(of(star_.frame(), {.previous = plain.nodes}).switched);
+}
+
+TEST_F(Hinted, OriginSaysWhichCandidateWasReturned) {
+  const Estimate plain = of(star_.frame());
+  std::set<Origin> found{plain.origin, of(wave_.frame()).origin};
+  for (const Alternative& elsewhere : plain.alternatives) {
+    Centerline moved = elsewhere.nodes;  // by less than a pixel: no reading has exactly these nodes
+    for (Point3& node : moved) node.x += 0.0005F;
+    Tensors tensors;
+    auto estimate = estimator_.estimate(star_.frame(), {.previous = moved}, tensors);
+    ASSERT_TRUE(estimate) << estimate.error().message;
+    found.insert(estimate->origin);
+    Centerline first;
+    for (std::size_t i = 0; i < kNodes; ++i) {
+      first[i] = {tensors.prior[3 * i], tensors.prior[3 * i + 1], tensors.prior[3 * i + 2]};
+    }
+    const bool is_first = estimate->nodes == first || estimate->nodes == reversed(first);
+    const bool is_before = estimate->nodes == moved || estimate->nodes == reversed(moved);
+    EXPECT_EQ(estimate->origin == Origin::kFirstPrior, is_first);
+    EXPECT_EQ(estimate->origin == Origin::kFrameBefore, is_before);
+    EXPECT_EQ(estimate->origin == Origin::kDraw, estimate->source == Source::kPrediction);
+    if (estimate->origin == Origin::kOtherReading) EXPECT_GT(estimate->readings, 1);
+  }
+  EXPECT_THAT(found, ::testing::IsSupersetOf({Origin::kFirstPrior, Origin::kFrameBefore}));
 }
 
 TEST_F(Hinted, AFrameThatIsClearOverrulesTheFrameBefore) {
