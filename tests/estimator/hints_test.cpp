@@ -64,6 +64,17 @@ Centerline reversed(Centerline nodes) {
 
 class Hinted : public ::testing::Test {
  protected:
+  /// The prior of the way that explains the frame best, in the order in which nothing hints.
+  Centerline first_prior(const Frame& frame) {
+    Tensors tensors;
+    const auto estimate = estimator_.estimate(frame, tensors);
+    if (!estimate) throw std::runtime_error(estimate.error().message);
+    Centerline nodes;
+    for (std::size_t i = 0; i < kNodes; ++i) {
+      nodes[i] = {tensors.prior[3 * i], tensors.prior[3 * i + 1], tensors.prior[3 * i + 2]};
+    }
+    return nodes;
+  }
   Estimate of(const Frame& frame, const Hints& hints = {}) {
     auto estimate = estimator_.estimate(frame, hints);
     if (!estimate) throw std::runtime_error(estimate.error().message);
@@ -208,24 +219,19 @@ TEST_F(Hinted, AFrameThatLeavesItOpenFollowsTheFrameBefore) {
 
 TEST_F(Hinted, OriginSaysWhichCandidateWasReturned) {
   const Estimate plain = of(star_.frame());
+  const Centerline first = first_prior(star_.frame());
   std::set<Origin> found{plain.origin, of(wave_.frame()).origin};
   for (const Alternative& elsewhere : plain.alternatives) {
     Centerline moved = elsewhere.nodes;  // by less than a pixel: no reading has exactly these nodes
     for (Point3& node : moved) node.x += 0.0005F;
-    Tensors tensors;
-    auto estimate = estimator_.estimate(star_.frame(), {.previous = moved}, tensors);
-    ASSERT_TRUE(estimate) << estimate.error().message;
-    found.insert(estimate->origin);
-    Centerline first;
-    for (std::size_t i = 0; i < kNodes; ++i) {
-      first[i] = {tensors.prior[3 * i], tensors.prior[3 * i + 1], tensors.prior[3 * i + 2]};
-    }
-    const bool is_first = estimate->nodes == first || estimate->nodes == reversed(first);
-    const bool is_before = estimate->nodes == moved || estimate->nodes == reversed(moved);
-    EXPECT_EQ(estimate->origin == Origin::kFirstPrior, is_first);
-    EXPECT_EQ(estimate->origin == Origin::kFrameBefore, is_before);
-    EXPECT_EQ(estimate->origin == Origin::kDraw, estimate->source == Source::kPrediction);
-    if (estimate->origin == Origin::kOtherReading) EXPECT_GT(estimate->readings, 1);
+    const Estimate estimate = of(star_.frame(), {.previous = moved});
+    found.insert(estimate.origin);
+    const bool is_first = estimate.nodes == first || estimate.nodes == reversed(first);
+    const bool is_before = estimate.nodes == moved || estimate.nodes == reversed(moved);
+    EXPECT_EQ(estimate.origin == Origin::kFirstPrior, is_first);
+    EXPECT_EQ(estimate.origin == Origin::kFrameBefore, is_before);
+    EXPECT_EQ(estimate.origin == Origin::kDraw, estimate.source == Source::kPrediction);
+    EXPECT_TRUE(estimate.origin != Origin::kOtherReading || estimate.readings > 1);
   }
   EXPECT_THAT(found, ::testing::IsSupersetOf({Origin::kFirstPrior, Origin::kFrameBefore}));
 }
