@@ -5,6 +5,7 @@
 const byId = (id) => document.getElementById(id);
 const picture = byId("picture");
 const space = byId("space");
+const unpointed = byId("node").textContent;
 const page = document.body;
 
 const SUPPORTED = "#20b8a0";
@@ -35,6 +36,7 @@ let scene = null;
 let image = null;
 let below = "image";
 let pointed = -1;
+const part = { times: 1, u: 0.5, v: 0.5 };  // of the picture: enlarged, and which place is in the middle
 const view = { turn: 0, tilt: 0, distance: 1, at: [0, 0, 0], reach: 1 };
 
 const on = (key) => [...CURVES, ...CLOUDS].find((one) => one.key === key).on;
@@ -142,8 +144,28 @@ function prepared(canvas) {
 }
 
 function placeOfPicture(width, height) {
-  const zoom = Math.min(width / scene.width, height / scene.height);
-  return { zoom, left: (width - zoom * scene.width) / 2, top: (height - zoom * scene.height) / 2 };
+  const zoom = part.times * Math.min(width / scene.width, height / scene.height);
+  return { zoom, left: width / 2 - zoom * part.u * scene.width, top: height / 2 - zoom * part.v * scene.height };
+}
+
+// Nearer to the pixel below the mouse, which stays there.
+function enlarge(event) {
+  event.preventDefault();
+  const box = picture.getBoundingClientRect();
+  const [x, y] = [event.clientX - box.left, event.clientY - box.top];
+  const before = placeOfPicture(picture.clientWidth, picture.clientHeight);
+  part.times = Math.max(1, Math.min(40, part.times * Math.exp(-0.0012 * event.deltaY)));
+  const after = placeOfPicture(picture.clientWidth, picture.clientHeight);
+  const ratio = after.zoom / before.zoom;
+  shift(x - after.left - ratio * (x - before.left), y - after.top - ratio * (y - before.top));
+}
+
+function shift(dx, dy) {
+  const { zoom } = placeOfPicture(picture.clientWidth, picture.clientHeight);
+  const inside = (value) => Math.max(0, Math.min(1, value));
+  part.u = part.times === 1 ? 0.5 : inside(part.u - dx / zoom / scene.width);
+  part.v = part.times === 1 ? 0.5 : inside(part.v - dy / zoom / scene.height);
+  drawPicture();
 }
 
 function toPixel(point) {
@@ -303,6 +325,7 @@ function choices() {
   for (const one of BELOW) {
     tick(byId("below"), "radio", one, one.key === below, () => {
       below = one.key;
+      remember();
       loadImage();
     });
   }
@@ -347,9 +370,13 @@ function ready() {
   page.dataset.ready = "yes";
 }
 
+function remember() {
+  window.history.replaceState(null, "", "#" + frame + (below === "image" ? "" : ":" + below));
+}
+
 async function show(index) {
   frame = index;
-  window.history.replaceState(null, "", "#" + index);
+  remember();
   const mine = ++asked;
   page.dataset.ready = "no";
   byId("frame").value = String(index);
@@ -367,6 +394,7 @@ async function show(index) {
   pointed = -1;
   for (const key of ["prior", "draws", "path"]) byId("curves-" + key).disabled = !scene[key];
   byId("below-field").disabled = !scene.field;
+  Object.assign(part, { times: 1, u: 0.5, v: 0.5 });
   firstView();
   facts();
   loadImage();
@@ -394,7 +422,7 @@ function point(event) {
       }
     });
   });
-  byId("node").textContent = pointed < 0 ? "Point at a node." : wordsOf(pointed);
+  byId("node").textContent = pointed < 0 ? unpointed : wordsOf(pointed);
   draw();
 }
 
@@ -446,7 +474,15 @@ function mouse() {
     view.distance = Math.max(0.05 * view.reach, Math.min(50 * view.reach, view.distance));
     drawSpace();
   }, { passive: false });
-  picture.addEventListener("pointermove", point);
+  picture.addEventListener("pointermove", (event) => {
+    if (scene && event.buttons === 1) shift(event.movementX, event.movementY);
+    point(event);
+  });
+  picture.addEventListener("dblclick", () => {
+    Object.assign(part, { times: 1, u: 0.5, v: 0.5 });
+    drawPicture();
+  });
+  picture.addEventListener("wheel", (event) => scene && enlarge(event), { passive: false });
 }
 
 async function begin() {
@@ -463,8 +499,9 @@ async function begin() {
     if (event.key === "ArrowRight") step(1);
   });
   new ResizeObserver(draw).observe(page);
-  const linked = Number.parseInt(window.location.hash.slice(1), 10);  // "#3": the fourth frame
-  await show(linked > 0 && linked < names.length ? linked : 0);
+  const [linked, layer] = window.location.hash.slice(1).split(":");  // "#3:field": of the fourth frame
+  if (BELOW.some((one) => one.key === layer)) byId("below-" + (below = layer)).checked = true;
+  await show(Number(linked) > 0 && Number(linked) < names.length ? Math.floor(Number(linked)) : 0);
 }
 
 begin();

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "tools/sample_estimate.hpp"
+#include "tools/view/rope_before_wall.hpp"
 #include "view/pages.hpp"
 
 namespace flowdlo::view {
@@ -17,36 +18,8 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-constexpr int kWidth = 80;
-constexpr int kHeight = 60;
-
-/// A grey rope, half a metre away, before a wall at one metre.
-struct Owned {
-  std::vector<float> depth_m = std::vector<float>(kWidth * kHeight, 1.0F);
-  std::vector<std::uint8_t> color_bgr = std::vector<std::uint8_t>(3 * kWidth * kHeight, 90);
-  std::vector<std::uint8_t> mask = std::vector<std::uint8_t>(kWidth * kHeight, 0);
-
-  Owned() {
-    for (std::size_t u = 10; u < 68; ++u) {
-      mask[29 * kWidth + u] = 255;
-      depth_m[29 * kWidth + u] = 0.5F;
-    }
-    depth_m[0] = 0;
-  }
-  [[nodiscard]] Frame frame() const {
-    Frame frame;
-    frame.width = kWidth;
-    frame.height = kHeight;
-    frame.depth_m = depth_m;
-    frame.color_bgr = color_bgr;
-    frame.mask = mask;
-    frame.intrinsics = {100, 100, 39.5, 29.5};
-    return frame;
-  }
-};
-
 TEST(ShownFrame, HasTheCurveThePointsAndThePictures) {
-  const Owned owned;
+  const test::RopeBeforeWall owned;
   Seen seen;
   seen.ropes.ropes = {test::sample_estimate()};
   seen.device = "cpu";
@@ -61,7 +34,8 @@ TEST(ShownFrame, HasTheCurveThePointsAndThePictures) {
   EXPECT_EQ(rope["origin"], "first_prior");
   EXPECT_NEAR(rope["nodes"][0][0], -0.15, 1e-5);
   EXPECT_EQ(scene["measured"].size(), 58U);
-  EXPECT_EQ(scene["scenery"].size(), kWidth * kHeight - 58U - 1);  // one pixel has no depth
+  EXPECT_EQ(scene["scenery"].size(),
+            owned.kWidth * owned.kHeight - 58U - 1);  // one pixel has no depth
   EXPECT_EQ(scene["measured"][0][3], "5a5a5a");
   EXPECT_NEAR(scene["measured"][0][0], (10 - 39.5) * 0.5 / 100, 1e-6);
   for (const auto* png : {&shown->image, &shown->mask}) EXPECT_EQ(png->substr(1, 3), "PNG");
@@ -70,7 +44,7 @@ TEST(ShownFrame, HasTheCurveThePointsAndThePictures) {
 }
 
 TEST(ShownFrame, WithoutAnEstimateSaysWhy) {
-  const Owned owned;
+  const test::RopeBeforeWall owned;
   const auto shown = shown_frame("rope", owned.frame(), Error{ErrorCode::kNoPath, "no \"way\""});
   ASSERT_TRUE(shown);
   const json scene = json::parse(shown->scene);
@@ -83,7 +57,7 @@ TEST(ShownFrame, WithoutAnEstimateSaysWhy) {
 }
 
 TEST(ShownFrame, OfALargeFrameStaysBounded) {
-  Owned owned;
+  const test::RopeBeforeWall owned;
   Frame frame = owned.frame();
   frame.width = 1600;
   frame.height = 1200;
