@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <spawn.h>
 #include <sys/mman.h>
+#include <sys/random.h>
 #include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -12,6 +13,7 @@
 #include <array>
 #include <cerrno>
 #include <csignal>
+#include <cstdint>
 #include <cstring>
 #include <opencv2/imgproc.hpp>
 #include <optional>
@@ -128,31 +130,44 @@ struct VideoFile::Encoder {
   Descriptor words{};     // what it prints
   pid_t process = -1;
   std::optional<Error> fault{};
-  bool kept = false;
 
-  Encoder(fs::path its_file, double rate) : file(std::move(its_file)), frames_per_s(rate) {
-    partial = file;
-    partial.replace_filename("." + file.filename().string() + ".partial");
-  }
+  Encoder(fs::path its_file, double rate) : file(std::move(its_file)), frames_per_s(rate) {}
   Encoder(const Encoder&) = delete;
   Encoder& operator=(const Encoder&) = delete;
-  ~Encoder() {
-    if (kept) return;
+  ~Encoder() { drop(); }
+
+  /// Leaves nothing behind, unless the file has got its name.
+  void drop() {
     if (process > 0) {
       ::kill(process, SIGKILL);
-      ended(process);
+      ended(std::exchange(process, -1));
     }
     std::error_code ignored;
-    if (size.width > 0) fs::remove(partial, ignored);
+    if (!partial.empty()) fs::remove(std::exchange(partial, {}), ignored);
   }
 
   [[nodiscard]] Error failed(const std::string& why) const {
     return {ErrorCode::kIo, fmt::format("--video {}: {}", files::shown(file), why)};
   }
 
+  [[nodiscard]] Result<void> make_partial();
   void begin(const cv::Size& first);
   void send(const cv::Mat& picture);
+  [[nodiscard]] Result<void> finish();
 };
+
+/// Beside the file that it becomes, under a name that nobody else knows or has taken.
+Result<void> VideoFile::Encoder::make_partial() {
+  std::uint64_t bits = 0;
+  if (::getrandom(&bits, sizeof(bits), 0) != sizeof(bits)) return failed(std::strerror(errno));
+  auto name = file;
+  name.replace_filename(fmt::format(".{}.{:016x}.partial", file.filename().string(), bits));
+  const Descriptor made(
+      ::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666));
+  if (made.number() < 0) return failed(std::strerror(errno));
+  partial = name;
+  return {};
+}
 
 void VideoFile::Encoder::begin(const cv::Size& first) {
   size = even(first);
@@ -209,6 +224,20 @@ void VideoFile::Encoder::send(const cv::Mat& picture) {
   }
 }
 
+Result<void> VideoFile::Encoder::finish() {
+  if (fault) return *fault;
+  if (process < 0) return failed("no frame has a picture");
+  pictures.close();
+  if (const int code = ended(std::exchange(process, -1)); code != 0) {
+    return failed(fmt::format("ffmpeg ended with {}: {}", code, words_in(words.number())));
+  }
+  std::error_code failure;
+  fs::rename(partial, file, failure);
+  if (failure) return failed(failure.message());
+  partial.clear();
+  return {};
+}
+
 Result<VideoFile> VideoFile::open(const fs::path& file, double frames_per_s) {
   auto encoder = std::make_unique<Encoder>(file, frames_per_s);
   std::error_code ignored;
@@ -225,6 +254,7 @@ Result<VideoFile> VideoFile::open(const fs::path& file, double frames_per_s) {
   if (const int code = ended(process); code != 0) {
     return without_ffmpeg(fmt::format("one that ends with {}", code));
   }
+  if (auto made = encoder->make_partial(); !made) return made.error();
   return VideoFile(std::move(encoder));
 }
 
@@ -235,19 +265,9 @@ void VideoFile::add(const cv::Mat& picture) {
 }
 
 Result<void> VideoFile::finish() {
-  Encoder& encoder = *encoder_;
-  if (encoder.fault) return *encoder.fault;
-  if (encoder.process < 0) return encoder.failed("no frame has a picture");
-  encoder.pictures.close();
-  if (const int code = ended(std::exchange(encoder.process, -1)); code != 0) {
-    return encoder.failed(
-        fmt::format("ffmpeg ended with {}: {}", code, words_in(encoder.words.number())));
-  }
-  std::error_code failure;
-  fs::rename(encoder.partial, encoder.file, failure);
-  if (failure) return encoder.failed(failure.message());
-  encoder.kept = true;
-  return {};
+  auto done = encoder_->finish();
+  encoder_->drop();
+  return done;
 }
 
 VideoFile::VideoFile(std::unique_ptr<Encoder> encoder) : encoder_(std::move(encoder)) {}

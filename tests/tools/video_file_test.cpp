@@ -101,6 +101,22 @@ TEST(VideoFile, WithoutPicturesReplacesNothing) {
   EXPECT_EQ(test::read_text(file), "mine");
 }
 
+TEST(VideoFile, ReplacesALinkAndDoesNotFollowIt) {
+  if (!has_ffmpeg()) GTEST_SKIP() << "no ffmpeg is installed";
+  const TemporaryFolder folder;
+  const auto file = folder.path() / "link.mp4";
+  const auto other = folder.path() / "other";
+  test::write_text(other, "theirs");
+  fs::create_symlink(other, file);
+  auto video = VideoFile::open(file, 10);
+  ASSERT_TRUE(video);
+  video->add(plain(64, 48, {1, 2, 3}));
+  ASSERT_TRUE(video->finish());
+  EXPECT_FALSE(fs::is_symlink(file));
+  EXPECT_EQ(test::read_text(other), "theirs");
+  EXPECT_EQ(entries_of(folder.path()), 2U);
+}
+
 TEST(VideoFile, NeedsAFolder) {
   const TemporaryFolder folder;
   const auto video = VideoFile::open(folder.path() / "no" / "where.mp4", 10);
