@@ -66,6 +66,7 @@ flowdlo_package(development libflowdlo-dev libdevel
                 "libflowdlo${abi} (= ${version})")
 flowdlo_package(command flowdlo science "centerlines of ropes from RGB-D frames: the command"
                 "libflowdlo${abi} (= ${version})")
+set(CPACK_DEBIAN_COMMAND_PACKAGE_SUGGESTS ffmpeg)  # for --video
 if(TARGET flowdlo_python)
   list(APPEND CPACK_COMPONENTS_ALL python)
   set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA "${PROJECT_SOURCE_DIR}/cmake/debian/postinst;${PROJECT_SOURCE_DIR}/cmake/debian/prerm")

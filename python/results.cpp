@@ -35,6 +35,22 @@ const char* name_of(Source source) {
   return source == Source::kPrediction ? "prediction" : "prior";
 }
 
+const char* name_of(Origin origin) {
+  switch (origin) {
+    case Origin::kFirstPrior:
+      return "first_prior";
+    case Origin::kRunnerUp:
+      return "runner_up";
+    case Origin::kOtherReading:
+      return "other_reading";
+    case Origin::kFrameBefore:
+      return "frame_before";
+    case Origin::kDraw:
+      return "draw";
+  }
+  return "unknown";
+}
+
 const char* name_of(Doubt doubt) {
   switch (doubt) {
     case Doubt::kNoRope:
@@ -91,9 +107,9 @@ py::dict dict_of(const Timings& timings) {
   for (const auto& [part, ms] : timings.device_ms) device.append(py::make_tuple(text(part), ms));
   return py::dict("evidence_ms"_a = timings.evidence_ms, "path_ms"_a = timings.path_ms,
                   "prior_ms"_a = timings.prior_ms, "readings_ms"_a = timings.readings_ms,
-                  "mask_field_ms"_a = timings.mask_field_ms, "model_ms"_a = timings.model_ms,
-                  "gate_ms"_a = timings.gate_ms, "total_ms"_a = timings.total_ms,
-                  "device_ms"_a = py::tuple(device));
+                  "beside_ms"_a = timings.beside_ms, "mask_field_ms"_a = timings.mask_field_ms,
+                  "model_ms"_a = timings.model_ms, "gate_ms"_a = timings.gate_ms,
+                  "total_ms"_a = timings.total_ms, "device_ms"_a = py::tuple(device));
 }
 
 }  // namespace
@@ -126,6 +142,7 @@ py::dict dict_of(const Estimate& estimate) {
       "nodes"_a = array_of(estimate.nodes), "support"_a = support,
       "sigma_m"_a = py::array_t<float>(kNodes, estimate.sigma_m.data()),
       "confidence"_a = estimate.confidence, "source"_a = name_of(estimate.source),
+      "origin"_a = name_of(estimate.origin),
       "draw"_a = estimate.draw < 0 ? py::object(py::none()) : py::object(py::int_(estimate.draw)),
       "calibrated"_a = estimate.calibrated, "readings"_a = estimate.readings,
       "one_rope"_a = dict_of(estimate.one_rope), "mask_agreement"_a = estimate.mask_agreement,

@@ -20,13 +20,14 @@ struct Stage {
   double Timings::*time_ms;
 };
 
-constexpr std::array<Stage, 7> kStages = {{{"path", &Timings::path_ms},
+constexpr std::array<Stage, 8> kStages = {{{"path", &Timings::path_ms},
                                            {"evidence", &Timings::evidence_ms},
                                            {"prior", &Timings::prior_ms},
                                            {"readings", &Timings::readings_ms},
                                            {"mask_field", &Timings::mask_field_ms},
                                            {"model", &Timings::model_ms},
-                                           {"gate", &Timings::gate_ms}}};
+                                           {"gate", &Timings::gate_ms},
+                                           {"readings_beside", &Timings::beside_ms}}};
 
 Percentiles percentiles_of_stage(const BenchReport& report, double Timings::*time_ms) {
   std::vector<double> values;

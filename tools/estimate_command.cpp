@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <system_error>
 #include <vector>
@@ -20,9 +21,12 @@
 #include "frame_output.hpp"
 #include "hint_options.hpp"
 #include "model_options.hpp"
+#include "overlay.hpp"
 #include "progress_bar.hpp"
 #include "recording_arguments.hpp"
+#include "rope_options.hpp"
 #include "terminal.hpp"
+#include "video_file.hpp"
 
 namespace flowdlo::tools {
 namespace {
@@ -40,7 +44,10 @@ struct EstimateOptions {
   bool tensors = false;
   bool field_overlay = false;
   bool quiet = false;
-  bool several = false;  // Config::ropes was given
+  bool stream = false;       // each estimate is told of the one before
+  fs::path video;            // empty: none
+  double frames_per_s = 15;  // of the video
+  RopeArguments ropes;
 };
 
 void complain(const Error& error) { tell_error("{}\n", error.message); }
@@ -82,31 +89,51 @@ std::string summary(const Ropes& ropes, const FrameEntry& entry, const fs::path&
                      files::shown(folder / "overlay.png"));
 }
 
+/// What one frame leaves to the next.
+struct Sequence {
+  Hints hints;
+  fs::path recording{};  // that the frame before is of; empty: a folder
+  std::optional<VideoFile> video{};
+};
+
+/// A frame without an estimate has its place in the video as well.
+void add_failure(Sequence& sequence, const FrameEntry& entry, const Result<FrameFolder>& loaded,
+                 const Error& error) {
+  if (!sequence.video || !loaded) return;
+  const std::string words =
+      fmt::format("{}: no estimate ({})", files::shown(entry.name), name_of(error.code));
+  sequence.video->add(draw_failure(loaded->frame(), words));
+}
+
 /// What there is to say about one frame, or why there is no estimate on disk.
 Result<std::string> run_frame(const EstimateOptions& options, const FrameEntry& entry,
-                              Estimator& estimator) {
+                              Estimator& estimator, Sequence& sequence) {
   const fs::path folder = options.out / entry.name;
   const auto provenance = provenance_of(options, entry, estimator);
   const auto durability = chosen_durability();
   if (auto forgotten = forget_results(folder, durability); !forgotten) return forgotten.error();
+  const auto loaded = load_frame(entry);
   const auto fail = [&](const Error& error) -> Error {
+    add_failure(sequence, entry, loaded, error);
     const auto written = write_failure(folder, error, provenance, durability);
     if (written) return error;
     return {error.code, error.message + "\n" + written.error().message};
   };
-  const auto loaded = load_frame(entry);
   if (!loaded) return fail(loaded.error());
-  if (options.several) {
+  if (options.ropes.several) {
     const auto ropes = estimator.estimate_ropes(loaded->frame());
     if (!ropes) return fail(ropes.error());
     const auto written = write_ropes(folder, loaded->frame(), *ropes, provenance, durability);
     if (!written) return fail(written.error());
+    if (sequence.video) {
+      sequence.video->add(draw_overlay(loaded->frame(), *ropes, provenance.device));
+    }
     return summary(*ropes, entry, folder);
   }
   Tensors tensors;
   const bool looks_inside = options.tensors || options.field_overlay;
-  const auto estimate = looks_inside ? estimator.estimate(loaded->frame(), options.hints, tensors)
-                                     : estimator.estimate(loaded->frame(), options.hints);
+  const auto estimate = looks_inside ? estimator.estimate(loaded->frame(), sequence.hints, tensors)
+                                     : estimator.estimate(loaded->frame(), sequence.hints);
   if (!estimate) return fail(estimate.error());
   std::vector<Point3> curve;
   if (options.curve_points > 0) {
@@ -119,15 +146,30 @@ Result<std::string> run_frame(const EstimateOptions& options, const FrameEntry& 
                                        options.field_overlay ? &tensors.strands : nullptr, curve},
                                       provenance, durability);
   if (!written) return fail(written.error());
+  if (options.stream) sequence.hints.previous = estimate->nodes;
+  if (sequence.video) {
+    sequence.video->add(draw_overlay(loaded->frame(), *estimate, provenance.device,
+                                     options.field_overlay ? &tensors.strands : nullptr));
+  }
   return summary(*estimate, entry, folder);
 }
 
+/// Another recording is another rope, or the same at another time.
+void begin_frame(const EstimateOptions& options, const FrameEntry& entry, Sequence& sequence) {
+  const fs::path recording = entry.read ? entry.folder : fs::path();
+  if (options.stream && recording != sequence.recording) {
+    sequence.hints.previous = options.hints.previous;
+  }
+  sequence.recording = recording;
+}
+
 ExitCode run_frames(const EstimateOptions& options, const std::vector<FrameEntry>& frames,
-                    Estimator& estimator) {
+                    Estimator& estimator, Sequence& sequence) {
   ProgressBar progress("estimate", static_cast<int>(frames.size()), options.quiet);
   auto exit_code = ExitCode::kDone;
   for (const auto& entry : frames) {
-    const auto outcome = run_frame(options, entry, estimator);
+    begin_frame(options, entry, sequence);
+    const auto outcome = run_frame(options, entry, estimator, sequence);
     progress.clear();
     if (!outcome) {
       exit_code = ExitCode::kFailed;
@@ -139,6 +181,12 @@ ExitCode run_frames(const EstimateOptions& options, const std::vector<FrameEntry
     }
     progress.advance();
   }
+  if (!sequence.video) return exit_code;
+  if (const auto written = sequence.video->finish(); !written) {
+    complain(written.error());
+    return ExitCode::kFailed;
+  }
+  if (!options.quiet) tell("{}\n", files::shown(options.video));
   return exit_code;
 }
 
@@ -149,6 +197,7 @@ ExitCode run(EstimateOptions& options) {
     return ExitCode::kUsage;
   }
   options.hints = *hints;
+  put_ropes(options.ropes, options.config);
   const auto frames =
       list_frames(options.frames, recording_opener(options.recordings, options.quiet));
   if (!frames) {
@@ -164,7 +213,24 @@ ExitCode run(EstimateOptions& options) {
     complain(estimator.error());
     return ExitCode::kUsage;
   }
-  return run_frames(options, *frames, *estimator);
+  Sequence sequence{.hints = options.hints};
+  if (!options.video.empty()) {
+    auto video = VideoFile::open(options.video, options.frames_per_s);
+    if (!video) {
+      complain(video.error());
+      return ExitCode::kUsage;
+    }
+    sequence.video.emplace(*std::move(video));
+  }
+  return run_frames(options, *frames, *estimator, sequence);
+}
+
+CLI::Validator ends_in_mp4() {
+  return {[](const std::string& file) {
+            return file.ends_with(".mp4") ? std::string()
+                                          : "expected a name that ends in .mp4, got " + file;
+          },
+          "", "mp4"};
 }
 
 }  // namespace
@@ -180,26 +246,27 @@ void add_estimate_command(CLI::App& app, ExitCode& exit_code) {
       ->required()
       ->type_name("DIR");
   add_model_options(*command, options->config);
-  auto* ropes =
-      command
-          ->add_option_function<std::string>(
-              "--ropes",
-              [options](const std::string& number) {
-                options->several = true;
-                options->config.ropes = number == "auto" ? 0 : std::stoi(number);
-              },
-              fmt::format("How many ropes a frame shows, 1 to {}, or auto, as many as there are; "
-                          "an instances.png in its folder tells as well [one]",
-                          kMostRopes))
-          ->check(CLI::Range(1, kMostRopes) | CLI::IsMember({"auto"}))
-          ->type_name("N");
+  auto* ropes = add_rope_options(*command, options->ropes);
   add_hint_options(*command, options->hint_arguments);
   command
       ->add_option("--curve", options->curve_points,
                    "Write curve.csv: so many points of the smooth curve through the nodes")
       ->check(CLI::Range(2, kMostCurvePoints))
       ->type_name("N");
-  for (const char* of_one : {"--first-end", "--end", "--previous", "--curve"}) {
+  command->add_flag("--stream", options->stream,
+                    "The frames follow each other: each estimate keeps the order of the ends, and "
+                    "the way through the mask where the frame leaves it open, of the one before");
+  command
+      ->add_option("--video", options->video,
+                   "Write the overlays of all frames as one video as well; needs ffmpeg")
+      ->check(ends_in_mp4())
+      ->type_name("FILE.mp4");
+  command->add_option("--fps", options->frames_per_s, "Frames a second of --video")
+      ->capture_default_str()
+      ->check(CLI::Range(0.1, 240.0))
+      ->needs("--video")
+      ->type_name("N");
+  for (const char* of_one : {"--first-end", "--end", "--previous", "--curve", "--stream"}) {
     command->get_option(of_one)->excludes(ropes);
   }
   command->add_flag("--tensors", options->tensors, "Write the model's tensors as .npy as well")

@@ -37,13 +37,27 @@ Json header(const char* status, const std::string& message, const Provenance& pr
           {"seed", provenance.seed}};
 }
 
+const char* words(Origin prior) {
+  switch (prior) {
+    case Origin::kRunnerUp:
+      return "the prior of a runner-up, another way through the mask,";
+    case Origin::kOtherReading:
+      return "a prior that another reading of the mask found";
+    case Origin::kFrameBefore:
+      return "the rope as it was in the frame before";
+    default:
+      return "the first prior";
+  }
+}
+
 std::string sentence(const Estimate& estimate) {
   const auto supported = std::count(estimate.support.begin(), estimate.support.end(), 1);
   std::string origin = "no draw of the model passed the gate, so this is the prior";
   if (estimate.source == Source::kPrediction) {
     origin = fmt::format("draw {} of the model passed the gate", estimate.draw);
   } else if (estimate.calibrated) {
-    origin = "the gate preferred this prior to every draw of the model";
+    origin =
+        fmt::format("the gate preferred {} to every draw of the model", words(estimate.origin));
   }
   return fmt::format(
       "{}; {:.0f} % of the curve lies on the mask and {} of {} nodes are backed by "
@@ -123,7 +137,8 @@ Json timings_json(const Timings& timings) {
           {"mask_field", number(timings.mask_field_ms)},
           {"model", number(timings.model_ms)},
           {"gate", number(timings.gate_ms)},
-          {"total", number(timings.total_ms)}};
+          {"total", number(timings.total_ms)},
+          {"readings_beside", number(timings.beside_ms)}};
 }
 
 Json device_timings_json(const Timings& timings) {
@@ -143,11 +158,28 @@ const char* name_of(Source source) {
   return source == Source::kPrediction ? "prediction" : "prior";
 }
 
+const char* name_of(Origin origin) {
+  switch (origin) {
+    case Origin::kFirstPrior:
+      return "first_prior";
+    case Origin::kRunnerUp:
+      return "runner_up";
+    case Origin::kOtherReading:
+      return "other_reading";
+    case Origin::kFrameBefore:
+      return "frame_before";
+    case Origin::kDraw:
+      return "draw";
+  }
+  return "unknown";
+}
+
 namespace {
 
 Json whole_json(const Estimate& estimate, const Provenance& provenance) {
   Json json = header("ok", sentence(estimate), provenance);
   json["source"] = tools::name_of(estimate.source);
+  json["origin"] = tools::name_of(estimate.origin);
   json["draw"] = estimate.draw < 0 ? Json(nullptr) : Json(estimate.draw);
   json["gate"] = estimate.calibrated ? "calibrated" : "thesis";
   json["confidence"] = number(estimate.confidence);
@@ -202,6 +234,7 @@ Json rope_json(const Ropes& ropes, std::size_t index) {
   return {{"nodes", std::move(nodes)},
           {"closed", rope.closed},
           {"source", tools::name_of(rope.source)},
+          {"origin", tools::name_of(rope.origin)},
           {"support", rope.support},
           {"sigma_m", std::move(sigma_m)},
           {"confidence", number(rope.confidence)},

@@ -14,6 +14,7 @@
 #include "shell_commands.hpp"
 #include "synth_command.hpp"
 #include "terminal.hpp"
+#include "view_command.hpp"
 #include "weights_command.hpp"
 
 namespace flowdlo::tools {
@@ -37,6 +38,7 @@ int run(int argc, char** argv) {
   auto exit_code = ExitCode::kDone;
   add_estimate_command(app, exit_code);
   add_mask_command(app, exit_code);
+  add_view_command(app, exit_code);
   add_devices_command(app);
   add_synth_command(app, exit_code);
   add_weights_command(app, exit_code);

@@ -297,6 +297,26 @@ cv::Mat draw_overlay(const Frame& frame, const Estimate& estimate, const std::st
   return picture;
 }
 
+cv::Mat draw_field(const Frame& frame, const SeenStrands& strands) {
+  cv::Mat picture = background(frame, mask_of(frame));
+  tint(picture, strands);
+  return picture;
+}
+
+cv::Mat draw_failure(const Frame& frame, const std::string& words) {
+  const int zoom = zoom_of(frame);
+  const cv::Size size(frame.width * zoom, frame.height * zoom);
+  const cv::Mat mask = mask_of(frame);
+  cv::Mat picture;
+  cv::Mat rope;
+  cv::resize(background(frame, mask), picture, size, 0, 0, cv::INTER_NEAREST);
+  cv::resize(mask, rope, size, 0, 0, cv::INTER_NEAREST);
+  const OverlayStyle style(size.width);
+  draw_mask_outline(picture, rope, style);
+  draw_legend(picture, rope, words, style);
+  return picture;
+}
+
 cv::Mat draw_overlay(const Frame& frame, const Ropes& ropes, const std::string& device) {
   const int zoom = zoom_of(frame);
   const cv::Size size(frame.width * zoom, frame.height * zoom);

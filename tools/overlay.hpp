@@ -17,9 +17,16 @@ namespace flowdlo::tools {
 [[nodiscard]] cv::Mat draw_overlay(const Frame& frame, const Estimate& estimate,
                                    const std::string& device, const SeenStrands* strands = nullptr);
 
-/// The same of several ropes, each in its own colour, darker where nothing visible backs it, its
-/// ends numbered as the ropes are; a ring has none. At each crossing the upper rope is drawn over
-/// the other.
+/// What the strand field says over the dimmed image, without a curve: axes coloured by direction,
+/// tips white. BGR, 8 bits, the frame's size.
+[[nodiscard]] cv::Mat draw_field(const Frame& frame, const SeenStrands& strands);
+
+/// The frame of which there is no estimate, with a sentence. As big as draw_overlay's.
+[[nodiscard]] cv::Mat draw_failure(const Frame& frame, const std::string& words);
+
+/// draw_overlay of several ropes, each in its own colour, darker where nothing visible backs it,
+/// its ends numbered as the ropes are; a ring has none. At each crossing the upper rope is drawn
+/// over the other.
 [[nodiscard]] cv::Mat draw_overlay(const Frame& frame, const Ropes& ropes,
                                    const std::string& device);
 

@@ -25,6 +25,19 @@ struct Legend {
   std::vector<Swatch> swatches;  ///< one line, below the others
 };
 
+const char* words_of(Origin prior) {
+  switch (prior) {
+    case Origin::kRunnerUp:
+      return "runner-up's prior";
+    case Origin::kOtherReading:
+      return "other reading's prior";
+    case Origin::kFrameBefore:
+      return "as in the frame before";
+    default:
+      return "first prior";
+  }
+}
+
 /// Where the curve is from; a prior is chosen for want of a plausible draw, or over one.
 std::string source_of(const Estimate& estimate) {
   if (estimate.source == Source::kPrediction) {
@@ -32,7 +45,8 @@ std::string source_of(const Estimate& estimate) {
   }
   const bool any = std::any_of(estimate.draws.begin(), estimate.draws.end(),
                                [](const DrawReport& draw) { return draw.accepted; });
-  return any ? "prior (likelier than the draws)" : "prior (no draw passed the gate)";
+  return fmt::format("{} ({})", words_of(estimate.origin),
+                     any ? "likelier than the draws" : "no draw passed the gate");
 }
 
 std::string shown(const std::string& device) {
@@ -147,6 +161,11 @@ void draw(const Legend& legend, cv::Mat& picture, const cv::Mat& rope, const Ove
 void draw_legend(cv::Mat& picture, const cv::Mat& rope, const Estimate& estimate,
                  const std::string& device, const OverlayStyle& style) {
   draw(legend_of(estimate, device), picture, rope, style);
+}
+
+void draw_legend(cv::Mat& picture, const cv::Mat& rope, const std::string& words,
+                 const OverlayStyle& style) {
+  draw(Legend{{words}, {}}, picture, rope, style);
 }
 
 void draw_legend(cv::Mat& picture, const cv::Mat& rope, const Ropes& ropes,

@@ -14,6 +14,10 @@ namespace flowdlo::tools {
 void draw_legend(cv::Mat& picture, const cv::Mat& rope, const Estimate& estimate,
                  const std::string& device, const OverlayStyle& style);
 
+/// A sentence in its place.
+void draw_legend(cv::Mat& picture, const cv::Mat& rope, const std::string& words,
+                 const OverlayStyle& style);
+
 /// The same of several ropes: how many, how sure of the least sure one, the device, and each rope's
 /// colour by its number.
 void draw_legend(cv::Mat& picture, const cv::Mat& rope, const Ropes& ropes,

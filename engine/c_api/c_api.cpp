@@ -38,6 +38,11 @@ static_assert(FLOWDLO_GATE_CALIBRATED == static_cast<int>(GateChoice::kCalibrate
 static_assert(FLOWDLO_FIELD_OFF == static_cast<int>(FieldChoice::kOff));
 static_assert(FLOWDLO_SOURCE_PREDICTION == static_cast<int>(Source::kPrediction));
 static_assert(FLOWDLO_SOURCE_PRIOR == static_cast<int>(Source::kPrior));
+static_assert(FLOWDLO_ORIGIN_FIRST_PRIOR == static_cast<int>(Origin::kFirstPrior));
+static_assert(FLOWDLO_ORIGIN_RUNNER_UP == static_cast<int>(Origin::kRunnerUp));
+static_assert(FLOWDLO_ORIGIN_OTHER_READING == static_cast<int>(Origin::kOtherReading));
+static_assert(FLOWDLO_ORIGIN_FRAME_BEFORE == static_cast<int>(Origin::kFrameBefore));
+static_assert(FLOWDLO_ORIGIN_DRAW == static_cast<int>(Origin::kDraw));
 static_assert(FLOWDLO_DOUBT_NO_ROPE == 1U << static_cast<int>(Doubt::kNoRope));
 static_assert(FLOWDLO_DOUBT_STRANDS_LEFT == 1U << static_cast<int>(Doubt::kStrandsLeft));
 static_assert(FLOWDLO_DOUBT_BARE_GAP == 1U << static_cast<int>(Doubt::kBareGap));
@@ -136,6 +141,7 @@ flowdlo_estimate plain(const Estimate& estimate) {
   out.total_ms = timings.total_ms;
   for (const LeftOut part : estimate.left_out) out.left_out |= 1U << static_cast<unsigned>(part);
   out.closed = estimate.closed ? 1 : 0;
+  out.origin = static_cast<std::int32_t>(estimate.origin);
   return out;
 }
 

@@ -38,7 +38,7 @@ template <>
 struct Kind<flowdlo_estimate> {
   static constexpr const char* kName = "flowdlo_estimate";
   static constexpr std::size_t kFirstBytes =
-      offsetof(flowdlo_estimate, closed) + sizeof(flowdlo_estimate::closed);
+      offsetof(flowdlo_estimate, reserved) + sizeof(flowdlo_estimate::reserved);
   static_assert(sizeof(flowdlo_estimate) == kFirstBytes);
 };
 

@@ -58,6 +58,7 @@ Estimate conclude(const estimator::Returned& returned,
   const prior::Prior& prior = hypotheses[returned.hypothesis].prior;
   Estimate estimate;
   estimate.source = returned.draw >= 0 ? Source::kPrediction : Source::kPrior;
+  estimate.origin = returned.origin;
   estimate.draw = returned.draw;
   estimate.nodes =
       returned.draw >= 0 ? prediction.draws[static_cast<std::size_t>(returned.draw)] : prior.nodes;
@@ -253,8 +254,8 @@ Result<Estimate> Estimator::Impl::estimate(const Frame& frame, const Hints& hint
     model_cost.left_out();
   }
   estimator::SecondLook look = rereading.finish();
-  timings.readings_ms = rereading.duration_ms();
-  stage.skip();  // readings_ms has it
+  stage.lap(rereading.duration_ms() > 0 ? timings.readings_ms : timings.gate_ms);
+  timings.beside_ms = std::max(0.0, rereading.duration_ms() - timings.readings_ms);
 
   const gate::DilatedMask mask(frame);
   auto verdict = gate::choose(prediction->draws, draw_prior_nodes, hypotheses.front().prior.nodes,

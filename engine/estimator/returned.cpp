@@ -20,6 +20,13 @@ float confidence_of(const std::vector<Hypothesis>& hypotheses, std::size_t used)
   return std::min(1 - of_best, confidence(hypotheses[used].evidence, 0));
 }
 
+/// Of what is no frame before.
+Origin origin_of(const Returned& returned, const std::vector<Hypothesis>& hypotheses) {
+  if (returned.draw >= 0) return Origin::kDraw;
+  if (hypotheses[returned.hypothesis].reading > 0) return Origin::kOtherReading;
+  return returned.hypothesis == 0 ? Origin::kFirstPrior : Origin::kRunnerUp;
+}
+
 }  // namespace
 
 Returned by_thesis(const std::vector<Hypothesis>& hypotheses, const flow::Prediction& prediction,
@@ -30,6 +37,7 @@ Returned by_thesis(const std::vector<Hypothesis>& hypotheses, const flow::Predic
     const int hypothesis = assigned[static_cast<std::size_t>(verdict.draw)];
     returned.hypothesis = static_cast<std::size_t>(hypothesis);
   }
+  returned.origin = origin_of(returned, hypotheses);
   returned.confidence = confidence_of(hypotheses, returned.hypothesis);
   returned.sigma_m =
       node_sigma(verdict.source, verdict.draw, prediction, hypotheses[returned.hypothesis].prior);
@@ -53,10 +61,12 @@ Returned by_score(const std::vector<gate::Candidate>& candidates, const Hints& h
                     .switched = choice.switched};
   if (choice.chosen == candidates.size()) {
     returned.hypothesis = look.hypotheses.size();
+    returned.origin = Origin::kFrameBefore;
     look.hypotheses.push_back(*std::move(before));
   } else {
     returned.draw = candidates[choice.chosen].draw;
     returned.hypothesis = static_cast<std::size_t>(candidates[choice.chosen].hypothesis);
+    returned.origin = origin_of(returned, look.hypotheses);
   }
   return returned;
 }

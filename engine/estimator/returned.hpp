@@ -8,6 +8,7 @@
 #include "estimator/conditions.hpp"
 #include "estimator/second_look.hpp"
 #include "flow/sampler.hpp"
+#include "flowdlo/estimate.hpp"
 #include "flowdlo/frame.hpp"
 #include "flowdlo/hints.hpp"
 #include "gate/candidate.hpp"
@@ -18,6 +19,7 @@ namespace flowdlo::estimator {
 struct Returned {
   int draw = -1;  ///< -1: the prior of the hypothesis
   std::size_t hypothesis = 0;
+  Origin origin = Origin::kFirstPrior;
   float confidence = 0;
   std::array<float, kNodes> sigma_m{};
   bool switched = false;  ///< by a hint it is another hypothesis than without one

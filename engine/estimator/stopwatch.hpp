@@ -14,9 +14,6 @@ class Stopwatch {
     last_ = now;
   }
 
-  /// What passed since the last lap counts for no figure.
-  void skip() { last_ = Clock::now(); }
-
  private:
   using Clock = std::chrono::steady_clock;
   Clock::time_point last_ = Clock::now();

@@ -15,6 +15,15 @@ namespace flowdlo {
 /// Which branch of Eq. (3.33) produced the nodes.
 enum class Source { kPrediction, kPrior };
 
+/// Which of all candidates the nodes are.
+enum class Origin {
+  kFirstPrior,    ///< the prior of the way through the mask that explains the frame best
+  kRunnerUp,      ///< the prior of another way through the mask as given
+  kOtherReading,  ///< the prior of a way that only a further reading of the mask found
+  kFrameBefore,   ///< Hints::previous: the rope lies where it lay
+  kDraw,          ///< a draw of the model
+};
+
 /// The gate's view of one draw, Eq. (3.30)-(3.32).
 struct DrawReport {
   bool accepted = false;
@@ -62,17 +71,17 @@ enum class LeftOut {
   kReadings,  ///< the eroded mask, though there was doubt
 };
 
-/// Milliseconds of each stage of one call. With Config::threads = 1 the stages sum to total_ms;
-/// with more threads they exceed it by what of readings_ms ran beside mask_field_ms and model_ms.
+/// Milliseconds of each stage of one call. The stages sum to total_ms; beside_ms is in no sum.
 struct Timings {
   double evidence_ms = 0;    ///< Sec. 3.2
   double path_ms = 0;        ///< Sec. 3.3, mask to ordered path
   double prior_ms = 0;       ///< Eq. (3.1)-(3.7), and comparing the traversals with the frame
-  double readings_ms = 0;    ///< further readings of the mask, from the first to the last
+  double readings_ms = 0;    ///< further readings of the mask, as far as they were waited for
   double mask_field_ms = 0;  ///< the field that the local features of Eq. (3.15) read
   double model_ms = 0;       ///< Eq. (3.26)-(3.28), upload and read-back included
   double gate_ms = 0;        ///< Eq. (3.30)-(3.33)
   double total_ms = 0;
+  double beside_ms = 0;  ///< further readings of the mask, while mask field and model ran
   /// The parts of model_ms, as the device's clock saw them, in order of execution.
   std::vector<std::pair<std::string, double>> device_ms;
 };
@@ -90,8 +99,9 @@ struct Estimate {
   std::array<float, kNodes> sigma_m{};
   int readings = 1;                ///< of the mask; more than one where the first leaves doubt
   Source source = Source::kPrior;  ///< which branch of Eq. (3.33)
-  int draw = -1;                   ///< index of the returned draw; -1: the prior
-  bool calibrated = false;         ///< the calibrated gate decided, not that of the thesis
+  Origin origin = Origin::kFirstPrior;
+  int draw = -1;            ///< index of the returned draw; -1: the prior
+  bool calibrated = false;  ///< the calibrated gate decided, not that of the thesis
   /// In [0, 1], whichever end comes first. Calibrated gate: the probability that the mean distance
   /// of `nodes` from the true ones, Eq. (4.1), is below 1 cm. Thesis gate: that `nodes` visit the
   /// rope in order and leave no loop out. Logistic models fitted on synthetic scenes: below 0.5

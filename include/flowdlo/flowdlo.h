@@ -223,6 +223,15 @@ FLOWDLO_EXPORT flowdlo_status flowdlo_mask_from_seeds(const flowdlo_frame* frame
 
 enum { FLOWDLO_SOURCE_PREDICTION = 0, FLOWDLO_SOURCE_PRIOR = 1 };
 
+/* Which of all candidates the nodes are. */
+enum {
+  FLOWDLO_ORIGIN_FIRST_PRIOR = 0,   /* the prior of the way that explains the frame best */
+  FLOWDLO_ORIGIN_RUNNER_UP = 1,     /* the prior of another way through the mask as given */
+  FLOWDLO_ORIGIN_OTHER_READING = 2, /* of a way that only a further reading of the mask found */
+  FLOWDLO_ORIGIN_FRAME_BEFORE = 3,  /* the rope as it was in the frame before */
+  FLOWDLO_ORIGIN_DRAW = 4           /* a draw of the model */
+};
+
 /* Why an estimate is not to be trusted: bits of flowdlo_estimate.doubts. */
 enum {
   FLOWDLO_DOUBT_NO_ROPE = 1,      /* what the mask shows has not the shape of a rope */
@@ -273,6 +282,8 @@ typedef struct flowdlo_estimate {
   double total_ms;
   uint32_t left_out; /* FLOWDLO_LEFT_OUT_ bits; 0: nothing */
   int32_t closed;    /* 1: a ring without ends: node 63 lies next to node 0 */
+  int32_t origin;    /* FLOWDLO_ORIGIN_: which of all candidates the nodes are */
+  int32_t reserved;  /* 0 */
 } flowdlo_estimate;
 
 /* Fills `estimate` with zeros. `struct_size` is sizeof(flowdlo_estimate). */

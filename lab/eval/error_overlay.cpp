@@ -1,8 +1,11 @@
 #include "eval/error_overlay.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
+#include <string>
 
 #include "frame/png.hpp"
 
@@ -15,6 +18,10 @@ constexpr float kFar_px = 1e5F;
 const cv::Scalar kTruth{60, 230, 60};
 const cv::Scalar kEstimate{40, 40, 255};
 const cv::Scalar kUnsupported{40, 230, 255};
+const cv::Scalar kBare{150, 60, 120};
+const cv::Scalar kText{235, 235, 235};
+constexpr int kLegend = 32;        // height
+constexpr int kLeastWidth = 1240;  // that takes the legend
 
 cv::Scalar color_of(std::span<const std::uint8_t> support, std::size_t node) {
   return support.empty() || support[node] != 0 ? kEstimate : kUnsupported;
@@ -59,6 +66,40 @@ void draw_depths(const Centerline& truth, const Centerline& nodes,
   }
 }
 
+/// What the colours mean, below both pictures.
+void draw_legend(std::span<const std::uint8_t> support, double mean_m, cv::Mat& band) {
+  constexpr int kFont = cv::FONT_HERSHEY_SIMPLEX;
+  constexpr double kScale = 0.45;
+  int x = 12;
+  const auto write = [&](const std::string& text, const cv::Scalar& color) {
+    cv::putText(band, text, {x, 22}, kFont, kScale, color, 1, cv::LINE_AA);
+    int below = 0;
+    x += cv::getTextSize(text, kFont, kScale, 1, &below).width + 22;
+  };
+  const auto entry = [&](const std::string& text, const cv::Scalar& color) {
+    cv::circle(band, {x + 5, 17}, 5, color, cv::FILLED, cv::LINE_AA);
+    x += 18;
+    write(text, kText);
+  };
+  entry("truth", kTruth);
+  entry("estimate", kEstimate);
+  if (!support.empty()) entry("estimate, not measured", kUnsupported);
+  entry("mask without depth", kBare);
+  write("white: from node to node", kText);
+  write("ring: node 0", kText);
+  write(fmt::format("mean index error {:.2f} cm", 100 * mean_m), kText);
+}
+
+double mean_distance_m(const Centerline& truth, const Centerline& nodes) {
+  double sum = 0;
+  for (std::size_t i = 0; i < kNodes; ++i) {
+    sum += std::hypot(static_cast<double>(truth[i].x - nodes[i].x),
+                      static_cast<double>(truth[i].y - nodes[i].y),
+                      static_cast<double>(truth[i].z - nodes[i].z));
+  }
+  return sum / kNodes;
+}
+
 }  // namespace
 
 Result<std::vector<std::uint8_t>> error_overlay_png(const Frame& frame, const Centerline& truth,
@@ -95,10 +136,15 @@ Result<std::vector<std::uint8_t>> error_overlay_png(const Frame& frame, const Ce
     cv::line(picture, at(truth[i]), at(truth[i + 1]), kTruth, 1, cv::LINE_AA);
     cv::line(picture, at(nodes[i]), at(nodes[i + 1]), kEstimate, 1, cv::LINE_AA);
   }
-  cv::Mat both(picture.rows, picture.cols + kPlotWidth, CV_8UC3, cv::Scalar::all(25));
+  cv::Mat both(picture.rows + kLegend, std::max(kLeastWidth, picture.cols + kPlotWidth), CV_8UC3,
+               cv::Scalar::all(25));
   picture.copyTo(both(cv::Rect(0, 0, picture.cols, picture.rows)));
   cv::Mat plot = both(cv::Rect(picture.cols, 0, kPlotWidth, picture.rows));
   draw_depths(truth, nodes, support, plot);
+  cv::putText(plot, "depth of each node, nearer above", {12, 20}, cv::FONT_HERSHEY_SIMPLEX, 0.45,
+              kText, 1, cv::LINE_AA);
+  cv::Mat legend = both.rowRange(picture.rows, both.rows);
+  draw_legend(support, mean_distance_m(truth, nodes), legend);
   return frame::encode_png(both);
 }
 

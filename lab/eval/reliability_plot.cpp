@@ -13,7 +13,7 @@ namespace flowdlo::eval {
 namespace {
 
 constexpr int kLeft = 70;
-constexpr int kTop = 50;
+constexpr int kTop = 64;
 constexpr int kSide = 380;
 constexpr int kCounts = 70;  // height of the bars below
 
@@ -52,9 +52,9 @@ Result<std::vector<std::uint8_t>> reliability_png(const DataSet& data_set) {
                   kEstimateColor, cv::FILLED);
     canvas.write_centred(std::to_string(bin.scenes), {here.x, floor + 16}, 0.36);
   }
-  canvas.write("share of estimates with an index error under 1 cm", {kLeft - 50, kTop - 26}, 0.42);
+  canvas.write("share of estimates with an index error under 1 cm", {kLeft - 50, kTop - 42}, 0.42);
   canvas.write(fmt::format("expected calibration error {:.3f}", expected_calibration_error(bins)),
-               {kLeft - 50, kTop - 8}, 0.38);
+               {kLeft - 50, kTop - 22}, 0.38);
   canvas.write_centred("confidence, and scenes that say it", {kLeft + kSide / 2, floor + 34}, 0.38);
   return canvas.png();
 }

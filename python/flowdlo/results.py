@@ -64,12 +64,13 @@ class Alternative:
 
 @dataclass(frozen=True)
 class Timings:
-    """Milliseconds of each stage of one call."""
+    """Milliseconds of each stage of one call; all but `beside_ms` sum to `total_ms`."""
 
     evidence_ms: float
     path_ms: float
     prior_ms: float
     readings_ms: float
+    beside_ms: float
     mask_field_ms: float
     model_ms: float
     gate_ms: float
@@ -88,6 +89,9 @@ class Estimate:
     confidence: [0, 1], the probability that the nodes are within 1 cm of the truth in the mean;
         where `calibrated` is False, that they visit the rope in order.
     source: "prediction" of the model, or "prior", which is no failure.
+    origin: which of all candidates: "first_prior", "runner_up" (another way through the mask),
+        "other_reading" (found by a further reading of the mask), "frame_before" (a stream's rope
+        that lies where it lay) or "draw".
     draw: index of the returned draw; None where the prior was returned.
     calibrated: whether the calibrated gate decided, not that of the thesis.
     readings: of the mask; more than one where the first left doubt.
@@ -107,6 +111,7 @@ class Estimate:
     sigma_m: npt.NDArray[np.float32]
     confidence: float
     source: str
+    origin: str
     draw: int | None
     calibrated: bool
     readings: int

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 #include <opencv2/imgproc.hpp>
+#include <set>
 #include <stdexcept>
 
 #include "flowdlo/estimator.hpp"
@@ -63,6 +64,17 @@ Centerline reversed(Centerline nodes) {
 
 class Hinted : public ::testing::Test {
  protected:
+  /// The prior of the way that explains the frame best, in the order in which nothing hints.
+  Centerline first_prior(const Frame& frame) {
+    Tensors tensors;
+    const auto estimate = estimator_.estimate(frame, tensors);
+    if (!estimate) throw std::runtime_error(estimate.error().message);
+    Centerline nodes;
+    for (std::size_t i = 0; i < kNodes; ++i) {
+      nodes[i] = {tensors.prior[3 * i], tensors.prior[3 * i + 1], tensors.prior[3 * i + 2]};
+    }
+    return nodes;
+  }
   Estimate of(const Frame& frame, const Hints& hints = {}) {
     auto estimate = estimator_.estimate(frame, hints);
     if (!estimate) throw std::runtime_error(estimate.error().message);
@@ -203,6 +215,25 @@ TEST_F(Hinted, AFrameThatLeavesItOpenFollowsTheFrameBefore) {
   }
   EXPECT_GE(followed, 2);
   EXPECT_FALSE(of(star_.frame(), {.previous = plain.nodes}).switched);
+}
+
+TEST_F(Hinted, OriginSaysWhichCandidateWasReturned) {
+  const Estimate plain = of(star_.frame());
+  const Centerline first = first_prior(star_.frame());
+  std::set<Origin> found{plain.origin, of(wave_.frame()).origin};
+  for (const Alternative& elsewhere : plain.alternatives) {
+    Centerline moved = elsewhere.nodes;  // by less than a pixel: no reading has exactly these nodes
+    for (Point3& node : moved) node.x += 0.0005F;
+    const Estimate estimate = of(star_.frame(), {.previous = moved});
+    found.insert(estimate.origin);
+    const bool is_first = estimate.nodes == first || estimate.nodes == reversed(first);
+    const bool is_before = estimate.nodes == moved || estimate.nodes == reversed(moved);
+    EXPECT_EQ(estimate.origin == Origin::kFirstPrior, is_first);
+    EXPECT_EQ(estimate.origin == Origin::kFrameBefore, is_before);
+    EXPECT_EQ(estimate.origin == Origin::kDraw, estimate.source == Source::kPrediction);
+    EXPECT_TRUE(estimate.origin != Origin::kOtherReading || estimate.readings > 1);
+  }
+  EXPECT_THAT(found, ::testing::IsSupersetOf({Origin::kFirstPrior, Origin::kFrameBefore}));
 }
 
 TEST_F(Hinted, AFrameThatIsClearOverrulesTheFrameBefore) {

@@ -63,6 +63,8 @@ class Estimate(ctypes.Structure):
         ("milliseconds", ctypes.c_double * 8),
         ("left_out", ctypes.c_uint32),
         ("closed", ctypes.c_int32),
+        ("origin", ctypes.c_int32),
+        ("reserved", ctypes.c_int32),
     ]
 
 
@@ -114,6 +116,8 @@ def assert_same(in_c, in_python):
     assert bytes(in_c.support) == in_python.support.tobytes()
     assert in_c.confidence == in_python.confidence
     assert in_c.source == ("prediction", "prior").index(in_python.source)
+    origins = ("first_prior", "runner_up", "other_reading", "frame_before", "draw")
+    assert in_c.origin == origins.index(in_python.origin)
     assert in_c.alternatives == len(in_python.alternatives)
     names = ("no_rope", "strands_left", "bare_gap", "goes_on")
     doubts = tuple(name for bit, name in enumerate(names) if in_c.doubts >> bit & 1)

@@ -36,6 +36,7 @@ def test_the_bits_are_those_of_the_command(command, examples, folder, estimator,
     assert [seven_digits(sigma) for sigma in estimate.sigma_m] == said["sigma_m"]
     assert seven_digits(estimate.confidence) == said["confidence"]
     assert estimate.source == said["source"]
+    assert estimate.origin == said["origin"]
     assert len(estimate.alternatives) == len(said["alternatives"])
     assert [draw.accepted for draw in estimate.draws] == [d["accepted"] for d in said["draws"]]
 
@@ -90,6 +91,7 @@ def test_shapes_and_types_are_as_documented(folder, estimator):
     assert 0 <= estimate.confidence <= 1
     assert estimate.source in ("prediction", "prior")
     assert (estimate.draw is None) == (estimate.source == "prior")
+    assert (estimate.origin == "draw") == (estimate.source == "prediction")
     assert len(estimate.draws) == 2
     assert estimate.timings.total_ms > 0
 

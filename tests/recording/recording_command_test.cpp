@@ -3,10 +3,15 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
+#include <csignal>
+#include <nlohmann/json.hpp>
+
 #include "flowdlo/frame_folder.hpp"
 #include "frame/temporary_folder.hpp"
 #include "recording/drawn_recording.hpp"
 #include "tools/program.hpp"
+#include "tools/view/http_client.hpp"
+#include "tools/view/viewer.hpp"
 
 namespace flowdlo {
 namespace {
@@ -45,6 +50,16 @@ TEST_F(RecordingCommand, TakesTheMaskFromATopic) {
   const auto outcome = run_estimate(scratch_.path(), {bag().string(), "--mask-topic", kMask});
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_EQ(estimate_json_of(scratch_.path(), "take1_000002")["status"], "ok");
+}
+
+TEST_F(RecordingCommand, IsLookedAtFrameByFrame) {
+  Viewer viewer(scratch_.path(), {bag().string(), "--hsv", kBlue});
+  EXPECT_EQ(body_of(viewer.get("frames.json")),
+            "[\"take1_000000\",\"take1_000001\",\"take1_000002\"]");
+  const auto scene = nlohmann::json::parse(body_of(viewer.get("frames/2/scene.json")));
+  EXPECT_EQ(scene["width"], scene_.image.width);
+  EXPECT_EQ(scene["ropes"].size(), 1U);
+  EXPECT_EQ(viewer.end(SIGTERM), 0);
 }
 
 TEST_F(RecordingCommand, PipeInARecordingsPlaceIsRefusedAtOnce) {

@@ -96,6 +96,8 @@ TEST(ReportPage, ViewIsDrawnAndTurnsWithTheMouse) {
                             dom.find('"', begin + key.size()) - begin - key.size());
   };
   EXPECT_GT(std::stoi("0" + value("triangles")), 1000);
+  EXPECT_GT(std::stod("0" + value("fills")), 0.4);  // of the view, by the first one
+  EXPECT_LT(std::stod("0" + value("fills")), 0.95);
   EXPECT_FALSE(value("before").empty());
   EXPECT_NE(value("before"), value("camera"));
 }

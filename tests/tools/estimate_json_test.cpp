@@ -5,6 +5,9 @@
 
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "tools/sample_estimate.hpp"
 
@@ -56,6 +59,26 @@ TEST(EstimateJson, HoldsTheNodesAndWhatTheHintsDid) {
   EXPECT_EQ(Json::parse(estimate_json(estimate, kProvenance))["reversed"], true);
   estimate.switched = true;
   EXPECT_EQ(Json::parse(estimate_json(estimate, kProvenance))["switched"], true);
+}
+
+TEST(EstimateJson, NamesTheCandidateThatWasReturned) {
+  auto estimate = test::sample_estimate();
+  estimate.source = Source::kPrior;
+  estimate.calibrated = true;
+  const std::vector<std::pair<Origin, std::pair<const char*, const char*>>> all{
+      {Origin::kFirstPrior, {"first_prior", "the first prior"}},
+      {Origin::kRunnerUp, {"runner_up", "runner-up"}},
+      {Origin::kOtherReading, {"other_reading", "another reading"}},
+      {Origin::kFrameBefore, {"frame_before", "the frame before"}}};
+  for (const auto& [origin, names] : all) {
+    estimate.origin = origin;
+    const auto json = Json::parse(estimate_json(estimate, kProvenance));
+    EXPECT_EQ(json["origin"], names.first);
+    EXPECT_THAT(json["message"].get<std::string>(), testing::HasSubstr(names.second));
+  }
+  estimate.source = Source::kPrediction;
+  estimate.origin = Origin::kDraw;
+  EXPECT_EQ(Json::parse(estimate_json(estimate, kProvenance))["origin"], "draw");
 }
 
 TEST(EstimateJson, NamesTheGateThatGivesConfidenceItsMeaning) {

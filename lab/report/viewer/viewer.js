@@ -23,6 +23,7 @@ import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 const data = window.flowdlo;
 const page = document.body;
 const box = document.getElementById("view");
+const kFrom = new Vector3(0.25, 0.75, 0.95).normalize();  // where the first view looks from
 const shown = new Set(["truth", "estimate", "trackdlo"]);
 let renderer;
 let camera;
@@ -72,6 +73,12 @@ function render() {
   page.dataset.camera = camera.position.toArray().map((v) => v.toFixed(4)).join(" ");
 }
 
+// From where a ball of that diameter fills nine tenths of the view's shorter side.
+function distance(reach) {
+  const upright = Math.tan((camera.fov * Math.PI) / 360);
+  return (0.5 * reach) / 0.9 / Math.sin(Math.atan(upright * Math.min(1, camera.aspect)));
+}
+
 function forget(old) {
   old.traverse((part) => {
     if (part.geometry) part.geometry.dispose();
@@ -100,11 +107,14 @@ function draw(fit) {
   }
   if (fit) {
     controls.target.copy(middle);
-    camera.position.copy(middle).add(new Vector3(0.25, 0.75, 0.95).multiplyScalar(reach));
+    camera.position.copy(middle).addScaledVector(kFrom, distance(reach));
     camera.near = reach / 100;
     camera.far = reach * 100;
     camera.updateProjectionMatrix();
     controls.update();
+    camera.updateMatrixWorld();
+    const places = subject.flatMap(points).map((point) => point.project(camera));
+    page.dataset.fills = Math.max(...places.flatMap(({ x, y }) => [Math.abs(x), Math.abs(y)]));
   }
   render();
 }
