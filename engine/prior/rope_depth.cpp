@@ -26,8 +26,6 @@ constexpr float kRimWidthPx = 5.0F;    // of ropes at least this wide
 constexpr float kSmoothWidths = 0.5F;  // see ProfileConfig
 constexpr float kLeastSmoothPx = 4.5F;
 constexpr float kTensionSmooths = 12.0F;
-constexpr float kClear = 0.1F;         // radii of noise, up to which a bend in depth shows at once;
-constexpr float kMostSmoother = 4.0F;  // noisier depths are smoothed over longer, at most by this
 constexpr double kLeastDepth_m = 1e-3;
 constexpr float kLeastSine = 0.25F;  // of ray and axis
 constexpr float kForgiven = 0.5F;    // radii of misfit
@@ -52,7 +50,6 @@ class Measurement {
     incline();
     radius_m_ = depth_radius_m(strip_, extent_, axis_m_, slant_, radius_m_);
     collect();
-    smoother_ = smoother();
     fit(true);
     for (int round = 0; round < kSlantRounds && incline() > kSameSlant; ++round) fit(true);
     rope.axis_m = axis_m_;
@@ -121,7 +118,7 @@ class Measurement {
       }
     }
     if (shared) press_apart(claims);
-    const float smooth_px = smoother_ * std::max(kSmoothWidths * strip_.width_px, kLeastSmoothPx);
+    const float smooth_px = std::max(kSmoothWidths * strip_.width_px, kLeastSmoothPx);
     const float smooth = smooth_px / std::max(strip_.step_px, 1e-3F);
     axis_m_ = fit_profile(static_cast<int>(strip_.stations.size()), claims, axis_m_,
                           {.smoothing_stations = smooth,
@@ -213,26 +210,6 @@ class Measurement {
     return most;
   }
 
-  /// How far a reading's claim is from the axis, over its station's slant.
-  [[nodiscard]] float misfit_m(const Reading& reading) const {
-    const float claim =
-        reading.depth_m + push_m(reading.station, reading.offset_px, reading.depth_m);
-    const auto i = static_cast<std::size_t>(reading.station);
-    return std::abs(claim - static_cast<float>(axis_m_[i])) / slant_[i];
-  }
-
-  /// Times the length over which clear depths are smoothed: a smoothing spline's goes with the
-  /// square root of the noise's deviation.
-  [[nodiscard]] float smoother() const {
-    std::vector<float> misfits;
-    for (const Reading& reading : core_) {
-      if (reading.rival < 0) misfits.push_back(misfit_m(reading));
-    }
-    if (misfits.empty()) return 1;
-    const float noise = 1.4826F * geometry::median_of(misfits) / radius_m_;
-    return std::clamp(std::sqrt(noise / kClear), 1.0F, kMostSmoother);
-  }
-
   void describe(RopeDepth& rope) const {
     std::vector<int> backing(strip_.stations.size(), 0);
     std::vector<float> misfits;
@@ -242,7 +219,10 @@ class Measurement {
         --backs;
         continue;
       }
-      const float misfit = misfit_m(reading);
+      const float claim =
+          reading.depth_m + push_m(reading.station, reading.offset_px, reading.depth_m);
+      const auto i = static_cast<std::size_t>(reading.station);
+      const float misfit = std::abs(claim - static_cast<float>(axis_m_[i])) / slant_[i];
       misfits.push_back(misfit);
       backs += misfit < radius_m_ ? 1 : 0;
     }
@@ -260,7 +240,6 @@ class Measurement {
   std::vector<double> axis_m_;
   std::vector<std::uint8_t> hidden_;
   float radius_m_ = 0;
-  float smoother_ = 1;
 };
 
 }  // namespace
