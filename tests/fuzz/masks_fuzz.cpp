@@ -21,8 +21,8 @@ using flowdlo::fuzz::ByteSource;
 using flowdlo::fuzz::DrawnFrame;
 using flowdlo::fuzz::promise;
 
-constexpr int kMostSide_px = 96;
-constexpr int kColors = 4;  // of a drawn frame
+constexpr int kMostSide_px = 40;  // so that a fit takes milliseconds
+constexpr int kColors = 4;        // of a drawn frame
 
 /// A number of a call: 0 to 2.55 times `unit`, or any bits whatever.
 float number(ByteSource& bytes, bool any, float unit) {
@@ -120,9 +120,12 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   frame.color_bgr = bgr;
   const auto mask = made(way, numbers, frame);
   check(mask, drawn.mask.size());
-  const auto again = made(way, numbers, frame);
-  promise(mask.has_value() == again.has_value() && (!mask || *mask == *again),
-          "the same frame gives the same bits");
-  if (way % 4 == 1) check(flowdlo::fit_plane(frame));
+  if (way % 4 == 1) {
+    check(flowdlo::fit_plane(frame));
+  } else {
+    const auto again = made(way, numbers, frame);
+    promise(mask.has_value() == again.has_value() && (!mask || *mask == *again),
+            "the same frame gives the same bits");
+  }
   return 0;
 }
