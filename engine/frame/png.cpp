@@ -8,6 +8,7 @@
 #include <bit>
 #include <csetjmp>
 #include <cstddef>
+#include <cstdlib>
 #include <new>
 #include <optional>
 
@@ -79,6 +80,20 @@ std::string damage(Bytes bytes, Size& size) {
   return "the PNG is cut short";
 }
 
+/// libpng's memory, so that what it lacked is told from what is damaged: to its callers both are
+/// the same jump. png_get_mem_ptr gives where to say so.
+void* take_memory(png_structp png, png_alloc_size_t bytes) {
+  void* const memory = std::malloc(bytes);
+  if (memory == nullptr) *static_cast<bool*>(png_get_mem_ptr(png)) = true;
+  return memory;
+}
+void give_back(png_structp, png_voidp memory) { std::free(memory); }
+
+Error no_memory(const std::string& who) {
+  return {ErrorCode::kOutOfMemory,
+          who + ": expected memory for a PNG, got none; free some and try again"};
+}
+
 [[noreturn]] void jump(png_structp png, png_const_charp) { png_longjmp(png, 1); }
 void ignore(png_structp, png_const_charp) {}
 
@@ -88,7 +103,8 @@ class Decoder {
  public:
   explicit Decoder(Bytes bytes)
       : rest_(bytes),
-        png_(png_create_read_struct(PNG_LIBPNG_VER_STRING, nullptr, jump, ignore)),
+        png_(png_create_read_struct_2(PNG_LIBPNG_VER_STRING, nullptr, jump, ignore, &lacked_,
+                                      take_memory, give_back)),
         info_(png_ != nullptr ? png_create_info_struct(png_) : nullptr) {}
   Decoder(const Decoder&) = delete;
   Decoder& operator=(const Decoder&) = delete;
@@ -130,6 +146,8 @@ class Decoder {
     return true;
   }
 
+  [[nodiscard]] bool lacked_memory() const { return lacked_; }
+
  private:
   static void read(png_structp png, png_bytep target, std::size_t size) {
     Bytes& rest = static_cast<Decoder*>(png_get_io_ptr(png))->rest_;
@@ -139,6 +157,7 @@ class Decoder {
   }
 
   Bytes rest_;
+  bool lacked_ = false;
   png_structp png_;
   png_infop info_;
 };
@@ -148,7 +167,8 @@ class Encoder {
  public:
   explicit Encoder(std::vector<std::uint8_t>& bytes)
       : bytes_(bytes),
-        png_(png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, jump, ignore)),
+        png_(png_create_write_struct_2(PNG_LIBPNG_VER_STRING, nullptr, jump, ignore, &lacked_,
+                                       take_memory, give_back)),
         info_(png_ != nullptr ? png_create_info_struct(png_) : nullptr) {}
   Encoder(const Encoder&) = delete;
   Encoder& operator=(const Encoder&) = delete;
@@ -171,6 +191,8 @@ class Encoder {
     return true;
   }
 
+  [[nodiscard]] bool lacked_memory() const { return lacked_; }
+
  private:
   static void append(png_structp png, png_bytep source, std::size_t size) {
     if (!static_cast<Encoder*>(png_get_io_ptr(png))->take(source, size))
@@ -182,11 +204,13 @@ class Encoder {
       bytes_.insert(bytes_.end(), source, source + size);
       return true;
     } catch (const std::bad_alloc&) {
+      lacked_ = true;
       return false;
     }
   }
 
   std::vector<std::uint8_t>& bytes_;
+  bool lacked_ = false;
   png_structp png_;
   png_infop info_;
 };
@@ -229,6 +253,7 @@ Result<cv::Mat> decode_png(Bytes bytes, const std::string& who) {
     auto rows = rows_of(image);
     if (decoder.read_pixels(rows.data())) return image;
   }
+  if (decoder.lacked_memory()) return no_memory(who);
   return Error{ErrorCode::kBadInput, who + ": the PNG is damaged; write it again"};
 }
 
@@ -246,6 +271,7 @@ Result<std::vector<std::uint8_t>> encode_png(const cv::Mat& image) {
                     bits, *color_type, rows.data())) {
     return bytes;
   }
+  if (encoder.lacked_memory()) return no_memory("encode_png");
   return Error{ErrorCode::kInternal, "encode_png: libpng could not encode the image"};
 }
 

@@ -38,10 +38,10 @@ void recolour_small(Mask& mask, const Size& size, std::uint8_t from, std::uint8_
     return u == 0 || v == 0 || u + 1 == width || v + 1 == static_cast<std::size_t>(size.height);
   };
   std::vector<char> seen(mask.size());
-  std::vector<std::size_t> region;
+  Places region;
   for (std::size_t start = 0; start < mask.size(); ++start) {
     if (seen[start] != 0 || mask[start] != from) continue;
-    region.assign(1, start);
+    region.assign(1, static_cast<std::uint32_t>(start));
     seen[start] = 1;
     bool open = false;
     for (std::size_t next = 0; next < region.size(); ++next) {
@@ -49,7 +49,7 @@ void recolour_small(Mask& mask, const Size& size, std::uint8_t from, std::uint8_
       for_each_neighbour(region[next], size, !holes, [&](std::size_t other) {
         if (seen[other] != 0 || mask[other] != from) return;
         seen[other] = 1;
-        region.push_back(other);
+        region.push_back(static_cast<std::uint32_t>(other));
       });
     }
     const auto pixels = static_cast<float>(region.size());

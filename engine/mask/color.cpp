@@ -27,10 +27,10 @@ Result<Mask> by_color(const Frame& frame, const ColorBand& band) {
   const Perceived rope = perceived(band.red, band.green, band.blue);
   const float strong = band.tolerance * band.tolerance;
   const float weak = strong * kWeakTolerances * kWeakTolerances;
-  const auto colors = perceived(frame.color_bgr);
-  std::vector<Fit> fits(colors.size(), Fit::kNot);
-  for (std::size_t pixel = 0; pixel < colors.size(); ++pixel) {
-    const Perceived& color = colors[pixel];
+  Perceiver perceiver;
+  std::vector<Fit> fits(frame.color_bgr.size() / 3, Fit::kNot);
+  for (std::size_t pixel = 0; pixel < fits.size(); ++pixel) {
+    const Perceived& color = perceiver(&frame.color_bgr[3 * pixel]);
     if (color.lightness < band.least_lightness || color.lightness > band.most_lightness) continue;
     const float apart = chromatic_distance2(color, rope);
     if (apart <= weak) fits[pixel] = apart <= strong ? Fit::kStrong : Fit::kWeak;

@@ -9,6 +9,10 @@ namespace {
 
 constexpr float kNoLight = 1e-6F;  ///< of L: below, a quotient by it says nothing
 
+constexpr std::uint32_t kSlotBits = 14;
+constexpr std::size_t kSlots = std::size_t{1} << kSlotBits;
+constexpr std::uint32_t kSpread = 2654435761U;  ///< Knuth's: 2^32 by the golden ratio
+
 /// Linear light of an sRGB code, IEC 61966-2-1.
 std::array<float, 256> linear_light() {
   std::array<float, 256> table{};
@@ -40,13 +44,22 @@ Perceived perceived(std::uint8_t red, std::uint8_t green, std::uint8_t blue) {
   return of_light(light[red], light[green], light[blue]);
 }
 
+Perceiver::Perceiver() : light_(linear_light()), known_(kSlots) {}
+
+const Perceived& Perceiver::operator()(const std::uint8_t* bgr) {
+  const std::uint32_t code =
+      (std::uint32_t{bgr[2]} << 16U) + (std::uint32_t{bgr[1]} << 8U) + bgr[0];
+  Known& known = known_[code * kSpread >> (32U - kSlotBits)];
+  if (known.code != code) known = {code, of_light(light_[bgr[2]], light_[bgr[1]], light_[bgr[0]])};
+  return known.color;
+}
+
 std::vector<Perceived> perceived(std::span<const std::uint8_t> color_bgr) {
-  const auto light = linear_light();
+  Perceiver perceiver;
   std::vector<Perceived> out;
   out.reserve(color_bgr.size() / 3);
   for (std::size_t at = 0; at + 2 < color_bgr.size(); at += 3) {
-    out.push_back(
-        of_light(light[color_bgr[at + 2]], light[color_bgr[at + 1]], light[color_bgr[at]]));
+    out.push_back(perceiver(&color_bgr[at]));
   }
   return out;
 }

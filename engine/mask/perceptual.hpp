@@ -1,6 +1,7 @@
 // Perceptual: colours in OKLab, and the part of them that light does not change.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -17,6 +18,24 @@ struct Perceived {
 
 /// Of one sRGB colour.
 [[nodiscard]] Perceived perceived(std::uint8_t red, std::uint8_t green, std::uint8_t blue);
+
+/// The same of one pixel after another: three roots take long, and an image has few colours.
+class Perceiver {
+ public:
+  Perceiver();
+
+  /// Of a pixel's three bytes, blue first. Valid until the next call.
+  const Perceived& operator()(const std::uint8_t* bgr);
+
+ private:
+  struct Known {
+    std::uint32_t code = ~0U;  ///< red, green and blue from the top; no colour has this one
+    Perceived color;
+  };
+
+  std::array<float, 256> light_;  ///< linear light of each code
+  std::vector<Known> known_;      ///< the last colour of each slot
+};
 
 /// Of every pixel of an image [pixels, 3], blue first.
 [[nodiscard]] std::vector<Perceived> perceived(std::span<const std::uint8_t> color_bgr);

@@ -199,6 +199,37 @@ Result<Fitted> fitted(const Frame& frame, const char* who) {
                  share_on(best, samples)}};
 }
 
+/// The median of nine, by 19 comparisons that need no branch (Paeth, "Median finding on a 3 x 3
+/// grid", 1990).
+float median_of_nine(std::vector<float>& v) {
+  const auto order = [&](std::size_t low, std::size_t high) {
+    const float least = std::min(v[low], v[high]);
+    v[high] = std::max(v[low], v[high]);
+    v[low] = least;
+  };
+  constexpr std::array<std::array<std::size_t, 2>, 19> kExchanges = {{{1, 2},
+                                                                      {4, 5},
+                                                                      {7, 8},
+                                                                      {0, 1},
+                                                                      {3, 4},
+                                                                      {6, 7},
+                                                                      {1, 2},
+                                                                      {4, 5},
+                                                                      {7, 8},
+                                                                      {0, 3},
+                                                                      {5, 8},
+                                                                      {4, 7},
+                                                                      {3, 6},
+                                                                      {1, 4},
+                                                                      {2, 5},
+                                                                      {4, 7},
+                                                                      {4, 2},
+                                                                      {6, 4},
+                                                                      {4, 2}}};
+  for (const auto& [low, high] : kExchanges) order(low, high);
+  return v[4];
+}
+
 /// [height, width] metres above the plane, the median of a pixel and its measured neighbours; not a
 /// number where nothing was measured.
 std::vector<float> heights_of(const Frame& frame, const Fitted& table, const Size& size) {
@@ -217,7 +248,7 @@ std::vector<float> heights_of(const Frame& frame, const Fitted& table, const Siz
     for_each_neighbour(pixel, size, /*diagonals=*/true, [&](std::size_t other) {
       if (!std::isnan(raw[other])) around.push_back(raw[other]);
     });
-    heights[pixel] = geometry::median_of(around);
+    heights[pixel] = around.size() == 9 ? median_of_nine(around) : geometry::median_of(around);
   }
   return heights;
 }

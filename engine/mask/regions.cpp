@@ -13,14 +13,14 @@ float area_px2(float area_of_640, const Size& size) {
 
 Mask connected_to_strong(const std::vector<Fit>& fits, const Size& size) {
   Mask mask(fits.size());
-  std::vector<std::size_t> front;
+  Places front;
   for (std::size_t pixel = 0; pixel < fits.size(); ++pixel) {
     if (fits[pixel] != Fit::kStrong) continue;
     mask[pixel] = 255;
-    front.push_back(pixel);
+    front.push_back(static_cast<std::uint32_t>(pixel));
   }
-  flood(mask, std::move(front), size,
-        [&](std::size_t /*from*/, std::size_t to) { return fits[to] != Fit::kNot; });
+  (void)flood(mask, std::move(front), size,
+              [&](std::size_t /*from*/, std::size_t to) { return fits[to] != Fit::kNot; });
   return mask;
 }
 

@@ -18,6 +18,9 @@ struct Size {
   }
 };
 
+/// Pixels by where they are in an image, row by row.
+using Places = std::vector<std::uint32_t>;
+
 /// Pixels of an area of an image 640 px wide, in one of this size.
 [[nodiscard]] float area_px2(float area_of_640, const Size& size);
 
@@ -25,30 +28,40 @@ struct Size {
 template <class Visit>
 void for_each_neighbour(std::size_t pixel, const Size& size, bool diagonals, const Visit& visit) {
   const auto width = static_cast<std::size_t>(size.width);
-  const int u = static_cast<int>(pixel % width);
-  const int v = static_cast<int>(pixel / width);
-  for (int dv = -1; dv <= 1; ++dv) {
-    for (int du = -1; du <= 1; ++du) {
-      if ((du == 0 && dv == 0) || (!diagonals && du != 0 && dv != 0)) continue;
-      if (u + du < 0 || u + du >= size.width || v + dv < 0 || v + dv >= size.height) continue;
-      visit(static_cast<std::size_t>(v + dv) * width + static_cast<std::size_t>(u + du));
-    }
+  const auto at = static_cast<std::uint32_t>(pixel);  // for quick divisions
+  const auto row = static_cast<std::uint32_t>(size.width);
+  const bool left = at % row > 0;
+  const bool right = at % row + 1 < row;
+  const bool above = at >= row;
+  const bool below = at / row + 1 < static_cast<std::uint32_t>(size.height);
+  if (above) {
+    if (diagonals && left) visit(pixel - width - 1);
+    visit(pixel - width);
+    if (diagonals && right) visit(pixel - width + 1);
+  }
+  if (left) visit(pixel - 1);
+  if (right) visit(pixel + 1);
+  if (below) {
+    if (diagonals && left) visit(pixel + width - 1);
+    visit(pixel + width);
+    if (diagonals && right) visit(pixel + width + 1);
   }
 }
 
 /// Everything that can be reached from `front`, whose pixels are set already, over pixels that are
-/// not: may_go(from, to) says whether a step may be taken. Sets what is reached.
+/// not: may_go(from, to) says whether a step may be taken. Sets what is reached, and gives it in
+/// the order in which it was, the pixels of `front` first.
 template <class MayGo>
-void flood(Mask& reached, std::vector<std::size_t> front, const Size& size, const MayGo& may_go) {
-  while (!front.empty()) {
-    const std::size_t from = front.back();
-    front.pop_back();
+Places flood(Mask& reached, Places front, const Size& size, const MayGo& may_go) {
+  for (std::size_t next = 0; next < front.size(); ++next) {
+    const std::size_t from = front[next];
     for_each_neighbour(from, size, /*diagonals=*/true, [&](std::size_t to) {
       if (reached[to] != 0 || !may_go(from, to)) return;
       reached[to] = 255;
-      front.push_back(to);
+      front.push_back(static_cast<std::uint32_t>(to));
     });
   }
+  return front;
 }
 
 /// How well a pixel fits what is looked for.

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <map>
 #include <utility>
 
 #include "geometry/depth.hpp"
@@ -22,6 +23,10 @@ namespace {
 
 constexpr float kMostTolerance = 2;
 constexpr float kMostStep_m = 10;
+
+/// How often the regions of all colours together may cover the image: it bounds the time. A rope
+/// that fills a tenth of it may have seeds of forty colours.
+constexpr std::size_t kMostTimesOver = 4;
 
 bool is_inside(const Pixel& seed, const Frame& frame) {
   return seed.u >= 0 && seed.v >= 0 && seed.u <= static_cast<float>(frame.width - 1) &&
@@ -49,15 +54,17 @@ Result<void> check(const Frame& frame, std::span<const Pixel> seeds, const SeedG
   return checks.outcome();
 }
 
-std::size_t pixel_of(const Pixel& seed, const Size& size) {
-  return static_cast<std::size_t>(geometry::nearest_px(seed.v)) *
-             static_cast<std::size_t>(size.width) +
-         static_cast<std::size_t>(geometry::nearest_px(seed.u));
+std::uint32_t pixel_of(const Pixel& seed, const Size& size) {
+  return static_cast<std::uint32_t>(geometry::nearest_px(seed.v) * size.width +
+                                    geometry::nearest_px(seed.u));
 }
 
+/// Blue, green, red.
+using Color = std::array<std::uint8_t, 3>;
+
 /// The median of each channel over the seed's pixel and its neighbours.
-Perceived color_at(std::size_t pixel, const Frame& frame, const Size& size) {
-  std::array<std::uint8_t, 3> middle{};
+Color color_at(std::size_t pixel, const Frame& frame, const Size& size) {
+  Color middle{};
   for (std::size_t channel = 0; channel < 3; ++channel) {
     std::vector<std::uint8_t> values{frame.color_bgr[3 * pixel + channel]};
     for_each_neighbour(pixel, size, /*diagonals=*/true, [&](std::size_t other) {
@@ -65,7 +72,27 @@ Perceived color_at(std::size_t pixel, const Frame& frame, const Size& size) {
     });
     middle[channel] = geometry::median_of(values);
   }
-  return perceived(middle[2], middle[1], middle[0]);
+  return middle;
+}
+
+/// Pixels of the seeds of each colour, whose regions grow as one.
+std::map<Color, Places> starts_of(std::span<const Pixel> seeds, const Frame& frame,
+                                  const Size& size) {
+  std::map<Color, Places> starts;
+  for (const Pixel& seed : seeds) {
+    const std::uint32_t pixel = pixel_of(seed, size);
+    auto& same = starts[color_at(pixel, frame, size)];
+    if (std::find(same.begin(), same.end(), pixel) == same.end()) same.push_back(pixel);
+  }
+  return starts;
+}
+
+Error too_much() {
+  return {ErrorCode::kBadInput,
+          fmt::format("mask_from_seeds: expected seeds whose regions cover the image at most {} "
+                      "times, got more; click on the rope alone, click less often, or lower the "
+                      "tolerances",
+                      kMostTimesOver)};
 }
 
 Result<Mask> by_seeds(const Frame& frame, std::span<const Pixel> seeds, const SeedGrowth& growth) {
@@ -81,17 +108,22 @@ Result<Mask> by_seeds(const Frame& frame, std::span<const Pixel> seeds, const Se
            std::abs(here - there) <= growth.depth_step_m;
   };
   Mask mask(size.pixels());
-  for (const Pixel& seed : seeds) {
-    const std::size_t start = pixel_of(seed, size);
-    const Perceived rope = color_at(start, frame, size);
-    Mask reached(size.pixels());
-    reached[start] = 255;
-    flood(reached, {start}, size, [&](std::size_t from, std::size_t to) {
+  Mask reached(size.pixels());
+  std::size_t gone_over = 0;
+  for (const auto& [color, starts] : starts_of(seeds, frame, size)) {
+    const Perceived rope = perceived(color[2], color[1], color[0]);
+    for (const std::size_t start : starts) reached[start] = 255;
+    const Places region = flood(reached, starts, size, [&](std::size_t from, std::size_t to) {
       return chromatic_distance2(colors[to], rope) <= apart &&
              std::abs(colors[to].lightness - rope.lightness) <= growth.lightness_tolerance &&
              stepless(from, to);
     });
-    for (std::size_t pixel = 0; pixel < mask.size(); ++pixel) mask[pixel] |= reached[pixel];
+    gone_over += region.size();
+    if (gone_over > kMostTimesOver * size.pixels()) return too_much();
+    for (const std::size_t pixel : region) {
+      mask[pixel] = 255;
+      reached[pixel] = 0;
+    }
   }
   return cleaned(std::move(mask), size, growth.cleaning);
 }

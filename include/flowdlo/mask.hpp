@@ -85,8 +85,9 @@ inline constexpr int kMostSeeds = 256;
 
 /// The pixels that can be reached from a seed over neighbours of its colour, without a step in
 /// depth; several seeds give all that any of them reaches. A seed is a pixel inside the image; its
-/// colour is the median of the nine pixels around it. Reads width, height, color_bgr and, unless it
-/// is empty, depth_m.
+/// colour is the median of the nine pixels around it. Fails as well where the regions of seeds of
+/// different colours cover the image four times together. Reads width, height, color_bgr and,
+/// unless it is empty, depth_m.
 [[nodiscard]] FLOWDLO_EXPORT Result<Mask> mask_from_seeds(const Frame& frame,
                                                           std::span<const Pixel> seeds,
                                                           const SeedGrowth& growth = {});

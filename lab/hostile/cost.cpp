@@ -33,21 +33,30 @@ double peak_mb() {
   return 0;
 }
 
+std::string verdict_on(const Error& error) {
+  return fmt::format("{}: {}", name_of(error.code), error.message);
+}
+
 std::string verdict_on(const Result<Estimate>& estimate) {
-  if (estimate) return fmt::format("confidence {:.2f}", estimate->confidence);
-  return fmt::format("{}: {}", name_of(estimate.error().code), estimate.error().message);
+  if (!estimate) return verdict_on(estimate.error());
+  return fmt::format("confidence {:.2f}", estimate->confidence);
+}
+
+std::string verdict_on(const Result<Ropes>& found) {
+  if (!found) return verdict_on(found.error());
+  return fmt::format("{} ropes", found->ropes.size());
 }
 
 }  // namespace
 
-Cost cost_of(const Frame& frame, Estimator& estimator, int rounds) {
+Cost cost_of(const Frame& frame, Estimator& estimator, int rounds, Asked asked) {
   Cost cost{std::numeric_limits<double>::max(), 0, {}};
   forget_peak();
   for (int round = 0; round < rounds; ++round) {
     const double before = cpu_now_s();
-    const auto estimate = estimator.estimate(frame);
+    cost.verdict = asked == Asked::kSeveralRopes ? verdict_on(estimator.estimate_ropes(frame))
+                                                 : verdict_on(estimator.estimate(frame));
     cost.cpu_s = std::min(cost.cpu_s, cpu_now_s() - before);
-    cost.verdict = verdict_on(estimate);
   }
   cost.peak_mb = peak_mb();
   return cost;

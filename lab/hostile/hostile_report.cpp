@@ -23,6 +23,7 @@
 namespace {
 
 namespace fs = std::filesystem;
+using flowdlo::lab::Asked;
 using flowdlo::lab::Cost;
 using flowdlo::lab::cost_of;
 using flowdlo::lab::draw;
@@ -33,6 +34,7 @@ struct Options {
   std::string only;
   bool here = false;
   bool fast = false;
+  bool ropes = false;
   fs::path weights;
   fs::path command;
   fs::path scratch = fs::temp_directory_path() / "flowdlo_hostile";
@@ -90,8 +92,11 @@ flowdlo::FrameFolder frame_of(const HostileMask& mask) {
 /// `--here`: measures masks in this process, and an ordinary frame of their size before each size.
 int measure(const Options& options, const std::vector<HostileMask>& masks) {
   const auto quality = options.fast ? flowdlo::Quality::kFast : flowdlo::Quality::kFull;
-  auto estimator = flowdlo::Estimator::create(
-      {.weights = options.weights, .device = "cpu", .quality = quality, .threads = 1});
+  auto estimator = flowdlo::Estimator::create({.weights = options.weights,
+                                               .device = "cpu",
+                                               .quality = quality,
+                                               .ropes = options.ropes ? 0 : 1,
+                                               .threads = 1});
   if (!estimator) {
     fmt::print(stderr, "{}\n", estimator.error().message);
     return 1;
@@ -104,7 +109,8 @@ int measure(const Options& options, const std::vector<HostileMask>& masks) {
       const auto ordinary = frame_around(flowdlo::lab::draw_ordinary(size_px), "ordinary");
       ordinary_s = cost_of(ordinary.frame(), *estimator, 1 + options.rounds).cpu_s;
     }
-    const Cost cost = cost_of(frame_of(mask).frame(), *estimator, options.rounds);
+    const Cost cost = cost_of(frame_of(mask).frame(), *estimator, options.rounds,
+                              options.ropes ? Asked::kSeveralRopes : Asked::kOneRope);
     fmt::print("| {} | {:.3f} | {:.2f} | {:.0f} | {} |\n", mask.name(), cost.cpu_s,
                cost.cpu_s / ordinary_s, cost.peak_mb, cost.verdict);
     std::fflush(stdout);
@@ -145,6 +151,7 @@ int report(const Options& options, const char* program, const std::vector<Hostil
   for (const HostileMask& mask : masks) {
     std::vector<std::string> line{program,     "--here",   "--only",
                                   mask.name(), "--rounds", std::to_string(options.rounds)};
+    if (options.ropes) line.emplace_back("--ropes");
     add_model(options, line);
     Run took = run(std::move(line), options.limit_s);
     if (took.status != 0) {
@@ -165,6 +172,7 @@ int main(int count, char** values) {
   CLI::App app{"What each mask of the hostile corpus takes of processor and memory"};
   app.add_option("--only", options.only, "Masks whose name holds this");
   app.add_flag("--here", options.here, "Measure in this process, without the table's head");
+  app.add_flag("--ropes", options.ropes, "Any number of ropes, in the library");
   app.add_option("--weights", options.weights)->check(CLI::ExistingFile);
   app.add_option_function<std::string>(
          "--quality", [&](const std::string& quality) { options.fast = quality == "fast"; },

@@ -2,6 +2,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <ctime>
 #include <limits>
 #include <vector>
 
@@ -106,6 +108,69 @@ TEST(MaskFromSeeds, NamesEveryFault) {
     EXPECT_THAT(mask.error().message, HasSubstr(what));
   }
   EXPECT_THAT(mask_from_seeds(scene.frame(), {}).error().message, HasSubstr("1 to 256 seeds"));
+}
+
+/// Everything of it hangs together for a seed anywhere, and hardly two seeds have one colour.
+TableScene faintly_coloured() {
+  TableScene scene;
+  for (std::size_t pixel = 0; pixel < scene.rope.size(); ++pixel) {
+    const auto words = random::philox(11, pixel);
+    const auto shade = [&](std::size_t channel) {
+      return 120 + static_cast<int>(words[channel] % 40);
+    };
+    scene.paint(pixel, shade(0), shade(1), shade(2));
+  }
+  return scene;
+}
+
+std::vector<Pixel> scattered(std::size_t count) {
+  std::vector<Pixel> seeds;
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto words = random::philox(13, i);
+    seeds.push_back({static_cast<float>(words[0] % TableScene::kWidth),
+                     static_cast<float>(words[1] % TableScene::kHeight)});
+  }
+  return seeds;
+}
+
+double processor_s() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
+
+TEST(MaskFromSeeds, ManySeedsThatReachEverythingAreRefusedInTheTimeOfAFew) {
+  const TableScene scene = faintly_coloured();
+  const SeedGrowth wide{.tolerance = 2, .lightness_tolerance = 2, .depth_step_m = 10};
+  const auto took_s = [&](std::size_t count) {
+    const auto seeds = scattered(count);
+    double least_s = std::numeric_limits<double>::max();
+    for (int turn = 0; turn < 3; ++turn) {
+      const double before_s = processor_s();
+      const auto mask = mask_from_seeds(scene.frame(), seeds, wide);
+      least_s = std::min(least_s, processor_s() - before_s);
+      EXPECT_EQ(mask.has_value(), count == 1);
+      if (!mask) {
+        EXPECT_THAT(mask.error().message, HasSubstr("click on the rope alone"));
+      }
+    }
+    return least_s;
+  };
+  const double one_s = took_s(1);
+  EXPECT_LE(took_s(kMostSeeds), 16 * one_s);
+}
+
+TEST(MaskFromSeeds, ManySeedsOfOneColourGrowAsOne) {
+  TableScene scene;
+  for (std::size_t pixel = 0; pixel < scene.rope.size(); ++pixel) scene.paint(pixel, 200, 30, 40);
+  const SeedGrowth growth{.depth_step_m = 10};
+  const auto mask = mask_from_seeds(scene.frame(), scattered(kMostSeeds), growth);
+  ASSERT_TRUE(mask) << mask.error().message;
+  EXPECT_EQ(testing::pixels_of(*mask), mask->size());
+}
+
+TEST(MaskFromSeeds, ASeedTwiceIsOne) {
+  const TableScene scene;
+  const auto once = mask_from_seeds(scene.frame(), std::vector{on_axis(100)});
+  const auto twice = mask_from_seeds(scene.frame(), std::vector{on_axis(100), on_axis(100)});
+  ASSERT_TRUE(once && twice);
+  EXPECT_EQ(*once, *twice);
 }
 
 }  // namespace

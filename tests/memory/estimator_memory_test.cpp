@@ -55,6 +55,60 @@ TEST(EstimatorMemory, EstimateWithTensorsSurvivesEveryAllocation) {
       {4, 8});
 }
 
+TEST(EstimatorMemory, EstimateWithHintsSurvivesEveryAllocation) {
+  const WaveFrame wave(160, 120, 7.0F);
+  auto estimator = Estimator::create(cpu());
+  ASSERT_TRUE(estimator);
+  const auto before = estimator->estimate(wave.frame());
+  ASSERT_TRUE(before);
+  const Hints hints{.first_end = before->nodes.back(),
+                    .ends = {before->nodes.front(), Pixel{80, 60}},
+                    .rope_length_m = 0.4,
+                    .previous = before->nodes};
+  sweep(
+      "Estimator::estimate with hints", [&] { return estimator->estimate(wave.frame(), hints); },
+      bits_of_result);
+}
+
+TEST(EstimatorMemory, EstimateOfSeveralRopesSurvivesEveryAllocation) {
+  WaveFrame frame(160, 120, 7.0F);
+  for (std::size_t v = 108; v < 114; ++v) {  // a straight one below the wave
+    for (std::size_t u = 20; u < 140; ++u) {
+      frame.mask[160 * v + u] = 255;
+      frame.depth_m[160 * v + u] = 0.5F;
+    }
+  }
+  Config config = cpu();
+  config.ropes = 2;
+  auto estimator = Estimator::create(config);
+  ASSERT_TRUE(estimator);
+  sweep(
+      "Estimator::estimate_ropes", [&] { return estimator->estimate_ropes(frame.frame()); },
+      [](const Result<Ropes>& found) {
+        std::string bits;
+        for (const Estimate& rope : found->ropes) bits += bits_of(rope);
+        append(bits, found->crossings);
+        append(bits, found->instances);
+        return bits;
+      },
+      {12, 12});
+}
+
+TEST(EstimatorMemory, TheCurveSurvivesEveryAllocation) {
+  const WaveFrame wave(160, 120, 7.0F);
+  auto estimator = Estimator::create(cpu());
+  ASSERT_TRUE(estimator);
+  const auto estimate = estimator->estimate(wave.frame());
+  ASSERT_TRUE(estimate);
+  sweep(
+      "Estimate::curve", [&] { return estimate->curve(500); },
+      [](const Result<std::vector<Point3>>& curve) {
+        std::string bits;
+        append(bits, *curve);
+        return bits;
+      });
+}
+
 TEST(EstimatorMemory, EstimateOfAFrameInDoubtSurvivesEveryAllocation) {
   const RingFrame frame;
   auto estimator = Estimator::create(cpu(FLOWDLO_DEFAULT_WEIGHTS));

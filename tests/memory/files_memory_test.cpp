@@ -51,6 +51,14 @@ TEST_F(FilesMemory, LoadFrameFolderSurvivesEveryAllocation) {
       [](const Result<FrameFolder>& frame) { return bytes_of(*frame); });
 }
 
+TEST_F(FilesMemory, LoadFrameFolderWithoutMaskSurvivesEveryAllocation) {
+  const fs::path folder = test::write_frame(scratch_.path());
+  fs::remove(folder / "mask.png");
+  sweep(
+      "load_frame_folder_without_mask", [&] { return load_frame_folder_without_mask(folder); },
+      [](const Result<FrameFolder>& frame) { return bytes_of(*frame); });
+}
+
 TEST_F(FilesMemory, SaveFrameFolderSurvivesEveryAllocation) {
   const WaveFrame wave(160, 120, 7.0F);
   const std::vector<std::uint8_t> color(wave.mask.size() * 3, 90);

@@ -36,7 +36,7 @@ inline std::vector<long> numbers_to_fail(long total, Depth depth) {
 }
 
 /// Calls `call`, a function of a Result, with every allocation of numbers_to_fail failing, once and
-/// from there on. What comes is an Error, or what comes without a failure as `bits` has it; and
+/// from there on. What comes is kOutOfMemory, or what comes without a failure as `bits` has it; and
 /// after an Error the next call gives that again.
 template <class Call, class Bits>
 void sweep(const char* name, const Call& call, const Bits& bits, Depth depth = {}) {
@@ -64,6 +64,7 @@ void sweep(const char* name, const Call& call, const Bits& bits, Depth depth = {
         EXPECT_EQ(bits(got), expected);
         continue;
       }
+      EXPECT_EQ(got.error().code, ErrorCode::kOutOfMemory) << got.error().message;
       auto next = call();
       ASSERT_TRUE(next) << next.error().message;
       EXPECT_EQ(bits(next), expected) << "of the next call";

@@ -155,5 +155,49 @@ TEST(Output, OfTwoRunsIntoOneFolderIsThatOfOne) {
   }
 }
 
+/// No file may grow: every write fails as on a full disk, and what is only removed needs no room.
+TEST(Output, OfARunThatCanWriteNothingIsNotThatOfAnEarlierOne) {
+  const TemporaryFolder scratch;
+  const auto frame = test::write_frame(scratch.path());
+  ASSERT_EQ(run_estimate(scratch.path(), {frame.string()}).exit_code, 0);
+  ASSERT_EQ(test::estimate_json_of(scratch.path(), "rope")["status"], "ok");
+  const auto line = std::string("trap '' XFSZ; ulimit -f 0; exec ") + FLOWDLO_COMMAND +
+                    " estimate '" + frame.string() + "' --out '" +
+                    (scratch.path() / "out").string() +
+                    "' --device cpu --steps 1 --draws 1 --quiet --weights " FLOWDLO_WEIGHTS;
+  const int status = std::system(line.c_str());
+  ASSERT_TRUE(WIFEXITED(status));
+  EXPECT_EQ(WEXITSTATUS(status), 1);
+  for (const char* name : {"estimate.json", "centerline.csv", "overlay.png"}) {
+    EXPECT_FALSE(fs::exists(test::results(scratch.path(), "rope") / name)) << name;
+  }
+}
+
+TEST(Output, ABenchsFiguresGoThroughLinksAndIntoDevices) {
+  const TemporaryFolder scratch;
+  const auto frame = test::write_frame(scratch.path());
+  const auto bench_to = [&](const fs::path& file) {
+    return run_flowdlo(scratch.path(),
+                       {"bench", frame.string(), "--frames", "1", "--draws", "1", "--steps", "1",
+                        "--device", "cpu", "--weights", FLOWDLO_WEIGHTS, "--json", file.string()})
+        .exit_code;
+  };
+  test::write_text(scratch.path() / "target", "old");
+  ASSERT_EQ(::chmod((scratch.path() / "target").c_str(), 0600), 0);
+  fs::create_symlink("target", scratch.path() / "link");
+  EXPECT_EQ(bench_to(scratch.path() / "link"), 0);
+  EXPECT_TRUE(fs::is_symlink(scratch.path() / "link"));
+  EXPECT_EQ(read_text(scratch.path() / "target").front(), '{');
+  struct stat status {};
+  ASSERT_EQ(::stat((scratch.path() / "target").c_str(), &status), 0);
+  EXPECT_EQ(status.st_mode & 0777U, 0600U);
+
+  const auto null = scratch.path() / "null";
+  if (!test::make_device(null, test::kNull)) GTEST_SKIP() << "this user may make no devices";
+  EXPECT_EQ(bench_to(null), 0);
+  ASSERT_EQ(::stat(null.c_str(), &status), 0);
+  EXPECT_TRUE(S_ISCHR(status.st_mode));
+}
+
 }  // namespace
 }  // namespace flowdlo
