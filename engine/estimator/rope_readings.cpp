@@ -69,7 +69,7 @@ Result<RopeReadings> read_ropes(const Frame& frame, int ropes, const SeeAxes& se
   const std::size_t count = masked->ropes.size();
   const auto axes = see ? see(masked->rope_width_px) : std::nullopt;
   if (!axes) return RopeReadings{*std::move(masked), std::vector(count, Witness::kNone)};
-  auto seen = path::trace_ropes(frame, *axes, ropes);
+  auto seen = path::trace_ropes(frame, *axes, ropes, masked->guesses);
   if (!seen) return RopeReadings{*std::move(masked), std::vector(count, Witness::kDiffers)};
   RopeReadings result{*std::move(seen), {}};
   const float width_px = std::max(masked->rope_width_px, result.paths.rope_width_px);

@@ -16,6 +16,7 @@ enum LinkTerm : std::size_t {
   kLinkUnshown,  ///< 1 - exp(-l / (2 w)), l: over which the mask is set but no strand runs that way
   kLinkColor,    ///< how much another colour one strand has than the other
   kLinkDepth,    ///< how badly the depths on both sides fit one smooth strand
+  kLinkHeard,  ///< how likely one of both ends goes on elsewhere, by the reading of the mask alone
   kLinkTerms
 };
 using LinkTerms = std::array<float, kLinkTerms>;
@@ -24,6 +25,7 @@ using LinkTerms = std::array<float, kLinkTerms>;
 enum StopTerm : std::size_t {
   kStopStart,   ///< 1
   kStopUnseen,  ///< how little it looks like a rope's end; 0 at the image's border
+  kStopHeard,   ///< how likely the rope goes on there, by the reading of the mask alone
   kStopTerms
 };
 using StopTerms = std::array<float, kStopTerms>;
@@ -31,12 +33,12 @@ using StopTerms = std::array<float, kStopTerms>;
 /// Of one rope's way, which has two ends whatever they cost. Fitted by `flowdlo_energy_fit` to the
 /// ends of strands in 900 `wide` training scenes of one rope (from 3200000 on), of which the right
 /// one of all links is to be the likeliest; colour and depth as below.
-inline constexpr LinkTerms kOneRopeLinks{1.0F, 1.05F, 0.95F, 2.0F, 3.4F, 0.8F, 1.0F};
+inline constexpr LinkTerms kOneRopeLinks{1.0F, 1.05F, 0.95F, 2.0F, 3.4F, 0.8F, 1.0F, 0.0F};
 
 /// Where a rope may as well end. Fitted by the same with `--first 3200000 --scenes 200 --several
 /// 700`, as what stops cost.
-inline constexpr LinkTerms kSeveralRopesLinks{2.1F, 1.0F, 0.4F, 2.0F, 1.7F, 1.0F, 1.05F};
-inline constexpr StopTerms kStopWeights{1.6F, 4.7F};
+inline constexpr LinkTerms kSeveralRopesLinks{2.1F, 1.0F, 0.4F, 2.0F, 1.7F, 1.0F, 1.05F, 1.0F};
+inline constexpr StopTerms kStopWeights{1.6F, 4.7F, 1.0F};
 
 /// Of each width of a strand that a path leaves out. Chosen on `wide` training scenes 3000500 to
 /// 3000749 by `flowdlo_reading_report`: 1 is worse by 0.1 cm, 4 by 0.02.

@@ -36,9 +36,10 @@ float depth_misfit(const StrandEnd& from, const StrandEnd& to, float width_px, f
 class Linker {
  public:
   Linker(const StrandEnd& from, const StrandEnd& to, const Cover& cover, const LinkTerms& weights,
-         float scale_px, float trust)
+         float scale_px, float trust, float elsewhere)
       : from_(from), to_(to), cover_(cover), weights_(weights), w_(scale_px), trust_(trust) {
     fit_[kLinkColor] = color_misfit(from.look, to.look);
+    fit_[kLinkHeard] = elsewhere;
     fit_[kLinkDepth] = depth_misfit(from, to, scale_px, cover.focal_px());
   }
 
@@ -118,8 +119,8 @@ class Linker {
 }  // namespace
 
 Link best_link(const StrandEnd& from, const StrandEnd& to, const Cover& cover,
-               const LinkTerms& weights, float scale_px, float trust, float most) {
-  return Linker(from, to, cover, weights, scale_px, trust).search(most);
+               const LinkTerms& weights, float scale_px, float trust, float most, float elsewhere) {
+  return Linker(from, to, cover, weights, scale_px, trust, elsewhere).search(most);
 }
 
 float least_energy(float length_px, const LinkTerms& weights, float scale_px) {

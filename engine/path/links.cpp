@@ -55,22 +55,24 @@ StopTerms stop_terms(const StrandEnd& end) {
   StopTerms terms{};
   terms[kStopStart] = 1;
   terms[kStopUnseen] = end.leaves ? 0 : 1 - end.tip_seen;
+  terms[kStopHeard] = end.goes_on;
   return terms;
 }
 
 Link link_between(int from, int to, const Strands& strands, const Cover& cover,
-                  const LinkTerms& weights, float most) {
+                  const LinkTerms& weights, float most, float elsewhere) {
   const auto shorter = static_cast<float>(
       std::min(strands.list[from / 2].points_px.size(), strands.list[to / 2].points_px.size()));
   const StrandEnd& a = strands.end(from);
   const StrandEnd& b = strands.end(to);
   const float scale_px = scale_between(a, b, strands);
   const float trust = std::min(1.0F, shorter / (kKnownWidths * scale_px));
-  return best_link(a, b, cover, weights, scale_px, trust, most);
+  return best_link(a, b, cover, weights, scale_px, trust, most, elsewhere);
 }
 
 std::vector<std::vector<Bond>> make_links(const Strands& strands, const Region& region,
-                                          const Frame& frame, bool several) {
+                                          const Frame& frame, bool several,
+                                          const Opinion& opinion) {
   const LinkTerms& weights = several ? kSeveralRopesLinks : kOneRopeLinks;
   const Cover cover(region, frame, strands.width_px, strands.seen);
   const std::vector<int> ends = open_ends(strands);
@@ -101,7 +103,8 @@ std::vector<std::vector<Bond>> make_links(const Strands& strands, const Region& 
   for (const Pair& pair : pairs) {
     const float most = std::min(pair.most, std::max(kept(pair.from), kept(pair.to)));
     if (pair.least >= most) continue;
-    const Link link = link_between(pair.from, pair.to, strands, cover, weights, most);
+    const Link link = link_between(pair.from, pair.to, strands, cover, weights, most,
+                                   opinion.against(pair.from, pair.to));
     if (link.energy >= most) continue;
     for (const auto& [end, other] : {std::pair{pair.from, pair.to}, {pair.to, pair.from}}) {
       auto& list = links[end];

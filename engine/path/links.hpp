@@ -5,6 +5,7 @@
 
 #include "path/bonds.hpp"
 #include "path/link.hpp"
+#include "path/second_opinion.hpp"
 
 namespace flowdlo::path {
 
@@ -13,12 +14,15 @@ namespace flowdlo::path {
 /// rings, but none from one end at the image's border to another: what comes back is another rope.
 [[nodiscard]] std::vector<std::vector<Bond>> make_links(const Strands& strands,
                                                         const Region& region, const Frame& frame,
-                                                        bool several = false);
+                                                        bool several = false,
+                                                        const Opinion& opinion = {});
 
-/// The link between two ends, whatever it costs: what the weights are fitted to.
+/// The link between two ends, whatever it costs: what the weights are fitted to. `elsewhere` is
+/// kLinkHeard.
 [[nodiscard]] Link link_between(int from, int to, const Strands& strands, const Cover& cover,
                                 const LinkTerms& weights,
-                                float most = std::numeric_limits<float>::max());
+                                float most = std::numeric_limits<float>::max(),
+                                float elsewhere = 0);
 
 /// What a path pays that ends there, and what that comes of.
 [[nodiscard]] StopTerms stop_terms(const StrandEnd& end);

@@ -39,11 +39,19 @@ struct TraceConfig {
                                         ///< camera frame, two at most
 };
 
+/// A set of ropes that explains a mask.
+struct RopesGuess {
+  std::vector<Path> ropes;
+  float share = 0;  ///< [0, 1] how likely it is beside the others
+};
+
 /// The ropes of one mask, each as one path.
 struct RopePaths {
   std::vector<Path> ropes;  ///< never empty; `score` is the set's
   std::vector<float> lead;  ///< [ropes] by how much any set without that rope costs more
   float rope_width_px = 0;  ///< median width of the mask across the skeleton
+  std::vector<RopesGuess>
+      guesses{};  ///< the likeliest sets, that one first; none of a field's axes
 };
 
 /// Costs by which a set of ropes may trail another one to be told of in RopePaths::lead.

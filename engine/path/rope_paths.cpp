@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <map>
 #include <utility>
 #include <vector>
 
@@ -25,6 +26,7 @@ constexpr float kWidthTo = 9.0F;        // and up to here
 constexpr float kWidthNoise = 0.12F;    // of the logarithm of one rope's width along it,
 constexpr float kWidthNoisePx = 0.7F;   // and pixels
 constexpr float kMostWidthCost = 4.0F;  // of a bond
+constexpr float kLeastShare = 0.02F;    // of a set that is worth telling of, beside the first
 
 // How wide the mask is at each end, [2 * strands]: in the median of the stretch that the crossing
 // there does not distort; 0 where there is none.
@@ -88,6 +90,51 @@ float lead_of(const Traversal& way, const std::vector<RopeSet>& sets, const Stra
   return kMostLead;
 }
 
+// Ways as paths, each drawn once.
+class Drawing {
+ public:
+  Drawing(const Strands& strands, const Region& region, const Frame& frame)
+      : strands_(strands), region_(region), frame_(frame) {}
+
+  // Of fewer than two points where there is nothing to draw.
+  const Path& of(const Traversal& way) {
+    const auto [place, added] = drawn_.try_emplace(std::pair(way.enters, way.closed));
+    if (added) {
+      place->second = assemble(way, strands_, region_, frame_);
+      place->second.width_px = strands_.width_px;
+    }
+    return place->second;
+  }
+
+  std::vector<Path> of(const RopeSet& set) {
+    std::vector<Path> paths;
+    for (const Traversal& way : set.ways) {
+      if (of(way).points_px.size() >= 2) paths.push_back(of(way));
+    }
+    return paths;
+  }
+
+ private:
+  const Strands& strands_;
+  const Region& region_;
+  const Frame& frame_;
+  std::map<std::pair<std::vector<int>, bool>, Path> drawn_;
+};
+
+// The likeliest of sets that come cheapest first: costs are negative logarithms.
+std::vector<RopesGuess> guesses_of(const std::vector<RopeSet>& sets, Drawing& drawing) {
+  std::vector<RopesGuess> guesses;
+  float sum = 0;
+  for (const RopeSet& set : sets) {
+    const float share = std::exp(sets.front().cost - set.cost);
+    if (share < kLeastShare) break;
+    guesses.push_back({drawing.of(set), share});
+    sum += share;
+  }
+  for (RopesGuess& guess : guesses) guess.share /= sum;
+  return guesses;
+}
+
 Error no_set(int ropes, const Strands& strands) {
   if (ropes == 0) {
     return {ErrorCode::kNoPath,
@@ -126,15 +173,16 @@ Result<RopePaths> rope_paths(const Strands& strands, const std::vector<std::vect
   if (sets.empty()) return no_set(ropes, strands);
   RopePaths result;
   result.rope_width_px = strands.width_px;
+  Drawing drawing(strands, region, frame);
   for (const Traversal& way : sets.front().ways) {
-    Path path = assemble(way, strands, region, frame);
+    Path path = drawing.of(way);
     if (path.points_px.size() < 2) continue;
-    path.width_px = strands.width_px;
     path.score = -static_cast<double>(sets.front().cost);
     result.ropes.push_back(std::move(path));
     result.lead.push_back(lead_of(way, sets, strands));
   }
   if (result.ropes.empty()) return no_set(ropes, strands);
+  if (strands.seen == nullptr) result.guesses = guesses_of(sets, drawing);
   if (result.ropes.size() <= kMostRopes) return result;
   return Error{ErrorCode::kNoPath,
                fmt::format("path: expected at most {} ropes, got {} of a texture or of many "

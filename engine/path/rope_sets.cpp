@@ -12,6 +12,8 @@ namespace flowdlo::path {
 namespace {
 
 constexpr std::size_t kPairings = 48;  // of one price
+constexpr float kTightWidths = 8;      // a ring is this long: bends of three radii, seen aslant
+constexpr float kTightCost = 10;       // of a shorter one
 constexpr int kPriceSteps = 6;         // each twice as far, at which a wanted number is looked for
 
 // The ends of all strands as things to be paired: by a bond, or, where a strand is left out, its
@@ -24,6 +26,7 @@ class Ends {
       for (const Bond& bond : bonds[from]) {
         const auto key = std::minmax(from, bond.to);
         if (key.first == key.second) continue;
+        if (key.first / 2 == key.second / 2 && tight({{key.first}, 0, true})) continue;
         const float cost = std::max(0.0F, bond.cost);
         const auto [place, added] = cheapest.try_emplace(key, cost);
         if (!added) place->second = std::min(place->second, cost);
@@ -52,12 +55,27 @@ class Ends {
       const auto open = std::count_if(set.ways.begin(), set.ways.end(),
                                       [](const Traversal& way) { return !way.closed; });
       set.cost -= price * static_cast<float>(open);
+      for (const Traversal& way : set.ways) set.cost += tight(way) ? kTightCost : 0;
       if (!set.ways.empty()) result.push_back(std::move(set));
     }
     return result;
   }
 
  private:
+  // Whether a rope would have to bend more tightly than ropes do to close like that.
+  [[nodiscard]] bool tight(const Traversal& way) const {
+    if (!way.closed) return false;
+    float length_px = 0;
+    for (std::size_t i = 0; i < way.enters.size(); ++i) {
+      const int enter = way.enters[i];
+      const int next = way.enters[(i + 1) % way.enters.size()];
+      length_px += strands_.list[enter / 2].covers_px;
+      length_px += (strands_.end(next).point_px - strands_.end(enter ^ 1).point_px).norm();
+    }
+    const Strand& first = strands_.list[way.enters.front() / 2];
+    return length_px < kTightWidths * width_px_of(first, strands_);
+  }
+
   [[nodiscard]] bool left_out(const Pairing& pairing, int strand) const {
     return pairing.pair_of[2 * strand] >= bonds_;
   }

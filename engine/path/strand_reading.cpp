@@ -151,12 +151,22 @@ field::Axes axes_in(const Reduced& copy, field::Axes axes) {
   return axes;
 }
 
+// Guesses of a frame in a copy of it.
+std::vector<RopesGuess> guesses_in(const Reduced& copy, std::vector<RopesGuess> guesses) {
+  for (RopesGuess& guess : guesses) {
+    for (Path& path : guess.ropes) {
+      for (Vector2f& p : path.points_px) p = copy.place_of(p);
+    }
+  }
+  return guesses;
+}
+
 // What `trace` makes of the frame and its axes, or of a reduced copy of both.
 template <class Answer, class Trace>
 Result<Answer> trace_axes(const Frame& frame, const field::Axes& axes, const Trace& trace) {
   return guard::guarded("path", [&]() -> Result<Answer> {
     return trace_reduced<Answer>(frame, [&](const Frame& seen, const Reduced* copy) {
-      return copy == nullptr ? trace(seen, axes) : trace(seen, axes_in(*copy, axes));
+      return copy == nullptr ? trace(seen, axes, copy) : trace(seen, axes_in(*copy, axes), copy);
     });
   });
 }
@@ -181,7 +191,8 @@ Strands strands_of(const Frame& frame, const field::Axes& axes, const Region& re
 
 Result<Traversals> trace_strands(const Frame& frame, const field::Axes& axes,
                                  const TraceConfig& config) {
-  const auto trace = [&](const Frame& seen, const field::Axes& lines) -> Result<Traversals> {
+  const auto trace = [&](const Frame& seen, const field::Axes& lines,
+                         const Reduced*) -> Result<Traversals> {
     const auto region = clean(seen);
     if (!region) return region.error();
     return rank(strands_of(seen, lines, *region), *region, seen, config);
@@ -189,13 +200,26 @@ Result<Traversals> trace_strands(const Frame& frame, const field::Axes& axes,
   return trace_axes<Traversals>(frame, axes, trace);
 }
 
-Result<RopePaths> trace_ropes(const Frame& frame, const field::Axes& axes, int ropes) {
-  const auto trace = [&](const Frame& seen, const field::Axes& lines) -> Result<RopePaths> {
+void heed(Strands& strands, const Opinion& opinion) {
+  for (std::size_t i = 0; i < opinion.goes_on.size(); ++i) {
+    StrandEnd& end = strands.list[i / 2].ends[i % 2];
+    end.goes_on = opinion.goes_on[i];
+    end.end_cost = energy_of(stop_terms(end), kStopWeights);
+  }
+}
+
+Result<RopePaths> trace_ropes(const Frame& frame, const field::Axes& axes, int ropes,
+                              const std::vector<RopesGuess>& guesses) {
+  const auto trace = [&](const Frame& seen, const field::Axes& lines,
+                         const Reduced* copy) -> Result<RopePaths> {
     const auto region = clean(seen, ropes);
     if (!region) return region.error();
-    const Strands strands = strands_of(seen, lines, *region);
-    return rope_paths(strands, make_links(strands, *region, seen, ropes != 1), *region, seen,
-                      ropes);
+    Strands strands = strands_of(seen, lines, *region);
+    const Opinion opinion =
+        opinion_on(strands, copy == nullptr ? guesses : guesses_in(*copy, guesses), *region);
+    heed(strands, opinion);
+    return rope_paths(strands, make_links(strands, *region, seen, ropes != 1, opinion), *region,
+                      seen, ropes);
   };
   return trace_axes<RopePaths>(frame, axes, trace);
 }

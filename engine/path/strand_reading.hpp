@@ -2,10 +2,13 @@
 // apart.
 #pragma once
 
+#include <vector>
+
 #include "field/axes.hpp"
 #include "flowdlo/frame.hpp"
 #include "flowdlo/result.hpp"
 #include "path/path.hpp"
+#include "path/second_opinion.hpp"
 #include "path/strands.hpp"
 
 namespace flowdlo::path {
@@ -18,7 +21,12 @@ namespace flowdlo::path {
 /// The strands that a network sees in `frame`, cleaned into `region`; borrows `axes`.
 [[nodiscard]] Strands strands_of(const Frame& frame, const field::Axes& axes, const Region& region);
 
-/// As `trace_ropes`, of the axes that a network sees in the frame.
-[[nodiscard]] Result<RopePaths> trace_ropes(const Frame& frame, const field::Axes& axes, int ropes);
+/// As `trace_ropes`, of the axes that a network sees in the frame; ropes rather go on where those
+/// `guesses` do that the mask alone gave.
+[[nodiscard]] Result<RopePaths> trace_ropes(const Frame& frame, const field::Axes& axes, int ropes,
+                                            const std::vector<RopesGuess>& guesses = {});
+
+/// What stopping at the ends of strands costs with another reading's opinion on them.
+void heed(Strands& strands, const Opinion& opinion);
 
 }  // namespace flowdlo::path

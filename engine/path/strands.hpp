@@ -34,6 +34,7 @@ struct StrandEnd {
   bool cut = false;               ///< right behind it something nearer hides the rope
   bool leaves = false;            ///< the image ends where it does
   float tip_seen = 0;             ///< [0, 1] how much the strand field shows the rope's own end
+  float goes_on = 0;              ///< [0, 1] how likely another reading goes on to another strand
   float end_cost = 0;             ///< what a path pays that ends here, where it is a tip
   EndLook look{};                 ///< of the strand, where a field shows it
   int crossing = -1;              ///< the crossing it runs into; -1: a tip

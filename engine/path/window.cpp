@@ -113,6 +113,9 @@ void Window::restore(Traversals& traversals, const cv::Size& frame) const {
 void Window::restore(RopePaths& paths, const cv::Size& frame) const {
   paths.rope_width_px /= scale;
   for (Path& path : paths.ropes) restore(path, frame);
+  for (RopesGuess& guess : paths.guesses) {
+    for (Path& path : guess.ropes) restore(path, frame);
+  }
 }
 
 cv::Mat mask_in(const Frame& frame, const cv::Rect& part) {

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <optional>
 #include <string>
@@ -182,11 +183,12 @@ std::vector<int> partners_of(const path::Strands& strands, const std::vector<Sta
 class Changes {
  public:
   Changes(const path::Strands& strands, const path::Region& region, const flowdlo::Frame& frame,
-          std::vector<int> partners, bool one_rope)
+          std::vector<int> partners, bool one_rope, const path::Opinion& opinion)
       : strands_(strands),
         cover_(region, frame, strands.width_px, strands.seen),
         partners_(std::move(partners)),
-        one_rope_(one_rope) {}
+        one_rope_(one_rope),
+        opinion_(opinion) {}
 
   std::vector<Choice> all() const {
     std::vector<Choice> choices;
@@ -220,7 +222,10 @@ class Changes {
     }
   }
   void add_link(int from, int to, double sign, Option& option) const {
-    const auto terms = path::link_between(from, to, strands_, cover_, weights()).terms;
+    constexpr float kAny = std::numeric_limits<float>::max();
+    const float elsewhere = opinion_.against(from, to);
+    const auto terms =
+        path::link_between(from, to, strands_, cover_, weights(), kAny, elsewhere).terms;
     for (std::size_t i = 0; i < terms.size(); ++i)
       option[i] += sign * static_cast<double>(terms[i]);
   }
@@ -257,18 +262,24 @@ class Changes {
   path::Cover cover_;
   std::vector<int> partners_;
   bool one_rope_;
+  const path::Opinion& opinion_;
 };
 
-/// As the mask's own paths have it.
-flowdlo::Result<float> rope_width_px(const flowdlo::Frame& frame, bool one_rope) {
+/// What the mask's own paths say: how wide a rope is and, of several, where they go.
+struct Masked {
+  float rope_width_px = 0;
+  std::vector<path::RopesGuess> guesses{};
+};
+
+flowdlo::Result<Masked> read_mask(const flowdlo::Frame& frame, bool one_rope) {
   if (one_rope) {
     const auto paths = path::trace(frame, {});
     if (!paths) return paths.error();
-    return paths->rope_width_px;
+    return Masked{paths->rope_width_px};
   }
-  const auto paths = path::trace_ropes(frame, 0);
+  auto paths = path::trace_ropes(frame, 0);
   if (!paths) return paths.error();
-  return paths->rope_width_px;
+  return Masked{paths->rope_width_px, std::move(paths->guesses)};
 }
 
 flowdlo::Result<Outcome> measure(synth::Split split, const std::string& part, std::uint64_t index,
@@ -284,19 +295,22 @@ flowdlo::Result<Outcome> measure(synth::Split split, const std::string& part, st
   const bool ring = std::any_of(scene->ropes.begin(), scene->ropes.end(),
                                 [](const synth::TrueRope& rope) { return rope.closed; });
   if (ring) return outcome;  // it begins nowhere
-  const auto width_px = rope_width_px(frame, one_rope);
-  if (!width_px) return width_px.error();
-  const auto seen = field::see(frame, *width_px, network);
+  const auto masked = read_mask(frame, one_rope);
+  if (!masked) return masked.error();
+  const auto seen = field::see(frame, masked->rope_width_px, network);
   if (!seen) return seen.error();
   const auto axes = field::axes(*seen);
   const auto region = path::clean(frame, one_rope ? 1 : 0);
   if (!region) return region.error();
-  const auto strands = path::strands_of(frame, axes, *region);
+  auto strands = path::strands_of(frame, axes, *region);
+  const auto opinion = path::opinion_on(strands, masked->guesses, *region);
+  path::heed(strands, opinion);
   if (strands.list.size() > kMostStrands) return outcome;
   const auto truths = truths_of(*scene, *region);
   const auto stays = stays_of(strands, truths);
   outcome.choices =
-      Changes(strands, *region, frame, partners_of(strands, stays, truths), one_rope).all();
+      Changes(strands, *region, frame, partners_of(strands, stays, truths), one_rope, opinion)
+          .all();
   return outcome;
 }
 
@@ -386,8 +400,8 @@ Quality quality_of(const std::vector<Choice>& choices, const Weights& weights) {
 }
 
 const std::array<const char*, kTerms> kNames{
-    "link: long", "bend",  "bend of a stump", "open",   "unshown",
-    "color",      "depth", "stop: start",     "unseen", "start of one"};
+    "link: long", "bend",      "bend of a stump", "open",   "unshown", "color",
+    "depth",      "elsewhere", "stop: start",     "unseen", "goes on", "start of one"};
 
 }  // namespace
 

@@ -84,6 +84,18 @@ TEST(RopeSets, AWayThatComesBackToItsBeginningIsClosed) {
   EXPECT_NEAR(sets[0].cost, kRingCost + 0.2F, 1e-4F);
 }
 
+TEST(RopeSets, WhatIsTooShortForARingStaysOpen) {
+  Strands strands = strands_of(1);
+  strands.list[0].covers_px = 60;  // six widths
+  Bonds bonds(2);
+  join(bonds, 0, 1, 0.1F);
+  const auto open = search_sets(strands, bonds, 0, 1);
+  ASSERT_FALSE(open.empty());
+  EXPECT_FALSE(open[0].ways.at(0).closed);
+  strands.list[0].covers_px = 100;
+  EXPECT_TRUE(search_sets(strands, bonds, 0, 1).at(0).ways.at(0).closed);
+}
+
 TEST(RopeSets, AShortStrandIsLeftOutAndALongOneIsARope) {
   Strands strands = strands_of(2);
   strands.list[1].covers_px = 15;  // a width and a half
