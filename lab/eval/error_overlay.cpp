@@ -4,7 +4,7 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
-#include "frame/png.hpp"
+#include "mat/mat_png.hpp"
 
 namespace flowdlo::eval {
 namespace {
@@ -99,7 +99,7 @@ Result<std::vector<std::uint8_t>> error_overlay_png(const Frame& frame, const Ce
   picture.copyTo(both(cv::Rect(0, 0, picture.cols, picture.rows)));
   cv::Mat plot = both(cv::Rect(picture.cols, 0, kPlotWidth, picture.rows));
   draw_depths(truth, nodes, support, plot);
-  return frame::encode_png(both);
+  return mat::encode_png(both);
 }
 
 }  // namespace flowdlo::eval
