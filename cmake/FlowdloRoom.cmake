@@ -36,7 +36,6 @@ function(flowdlo_room name)
   target_include_directories(${target} PUBLIC "${PROJECT_SOURCE_DIR}/include"
                                               "${PROJECT_BINARY_DIR}/include"
                                               "${PROJECT_SOURCE_DIR}/engine")
-  target_include_directories(${target} SYSTEM PUBLIC ${OpenCV_INCLUDE_DIRS})
   target_link_libraries(${target} PUBLIC flowdlo_options Eigen3::Eigen ${ROOM_DEPENDS})
   set_target_properties(${target} PROPERTIES POSITION_INDEPENDENT_CODE ON
                                              CXX_VISIBILITY_PRESET hidden

@@ -10,7 +10,7 @@
 
 #include "durability_choice.hpp"
 #include "files/whole_file.hpp"
-#include "frame/png.hpp"
+#include "mat/mat_png.hpp"
 
 namespace flowdlo::tools {
 namespace {
@@ -133,7 +133,7 @@ Result<void> save_contact_sheet(const std::filesystem::path& file,
     const cv::Point corner(k % kColumns * cell.width, k / kColumns * cell.height);
     cell_of(frames[static_cast<std::size_t>(k)]).copyTo(sheet(cv::Rect(corner, cell)));
   }
-  const auto bytes = frame::encode_png(sheet);
+  const auto bytes = mat::encode_png(sheet);
   if (!bytes) return bytes.error();
   return files::write_file(file, {*bytes}, chosen_durability());
 }

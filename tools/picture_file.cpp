@@ -6,7 +6,7 @@
 
 #include "files/regular_file.hpp"
 #include "files/shown_name.hpp"
-#include "frame/png.hpp"
+#include "mat/mat_png.hpp"
 
 namespace flowdlo::tools {
 namespace {
@@ -18,7 +18,7 @@ constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 28;
 Result<FrameFolder> load_picture(const std::filesystem::path& file) {
   const auto bytes = files::read_file(file, kMostBytes);
   if (!bytes) return bytes.error();
-  const auto image = frame::decode_png(bytes->view(), files::shown(file));
+  const auto image = mat::decode_png(bytes->view(), files::shown(file));
   if (!image) return image.error();
   if (image->depth() != CV_8U) {
     return Error{

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <opencv2/imgproc.hpp>
 #include <utility>
 
 #include "flowdlo/config.hpp"
@@ -15,6 +14,9 @@
 #include "geometry/pixel.hpp"
 #include "geometry/polyline.hpp"
 #include "geometry/quantile.hpp"
+#include "image/distance.hpp"
+#include "image/line.hpp"
+#include "image/masks.hpp"
 
 namespace flowdlo::estimator {
 namespace {
@@ -41,26 +43,24 @@ std::size_t index_of(const Frame& frame, const Vector2f& p) {
 
 bool masked(const Frame& frame, std::size_t pixel) { return frame.mask[pixel] > 127; }
 
-// [height, width] f32, how far each pixel is from the path.
-cv::Mat distance_to(const Path& path, const Frame& frame) {
-  cv::Mat away(frame.height, frame.width, CV_8U, cv::Scalar(255));
-  std::vector<cv::Point> points;
+// How far each pixel is from the path.
+image::Image<float> distance_to(const Path& path, const Frame& frame) {
+  image::Mask away({frame.width, frame.height}, 255);
+  std::vector<image::Point> points;
   for (const Vector2f& p : path.points_px) {
-    points.emplace_back(geometry::nearest_px(p.x()), geometry::nearest_px(p.y()));
+    points.push_back({geometry::nearest_px(p.x()), geometry::nearest_px(p.y())});
   }
-  cv::polylines(away, points, false, cv::Scalar(0));
-  cv::Mat distance;
-  cv::distanceTransform(away, distance, cv::DIST_L2, 5);
-  return distance;
+  image::draw_polyline(away, points, 0, image::Steps::kAslant);
+  return image::distance_to_empty(away);
 }
 
 // How wide `mask`, 0 or more, is along the path in the median.
-float width_along(const Path& path, const cv::Mat& inside, float usual_px) {
+float width_along(const Path& path, const image::Image<float>& inside, float usual_px) {
   std::vector<float> widths;
   for (std::size_t i = 0; i < path.points_px.size(); ++i) {
-    const int u = std::clamp(geometry::nearest_px(path.points_px[i].x()), 0, inside.cols - 1);
-    const int v = std::clamp(geometry::nearest_px(path.points_px[i].y()), 0, inside.rows - 1);
-    const float distance = inside.at<float>(v, u);
+    const int u = std::clamp(geometry::nearest_px(path.points_px[i].x()), 0, inside.width() - 1);
+    const int v = std::clamp(geometry::nearest_px(path.points_px[i].y()), 0, inside.height() - 1);
+    const float distance = inside.at(v, u);
     if (path.bridged[i] == 0 && distance > 0) widths.push_back(2 * distance - 0.5F);
   }
   if (widths.empty()) return usual_px;
@@ -124,10 +124,8 @@ class Stretch {
 class Parting {
  public:
   Parting(const Frame& frame, Parted& parted) : frame_(frame), parted_(parted) {
-    const cv::Mat mask(frame.height, frame.width, CV_8U,
-                       const_cast<std::uint8_t*>(frame.mask.data()));  // only read
-    cv::Mat inside;
-    cv::distanceTransform(mask > 127, inside, cv::DIST_L2, 5);
+    const image::ConstMask given(frame.mask.data(), {frame.width, frame.height}, frame.width);
+    const auto inside = image::distance_to_empty(image::above(given, 127, 1));
     for (const Path& path : ropes()) {
       parted_.width_px.push_back(width_along(path, inside, parted.paths.rope_width_px));
     }
@@ -140,8 +138,8 @@ class Parting {
     parted_.instances.assign(pixels, 0);
     std::vector<float> least(pixels, std::numeric_limits<float>::max());
     for (std::size_t r = 0; r < ropes().size(); ++r) {
-      const cv::Mat distance = distance_to(ropes()[r], frame_);
-      const auto* away = distance.ptr<float>();
+      const image::Image<float> distance = distance_to(ropes()[r], frame_);
+      const auto* away = distance.data();
       for (std::size_t p = 0; p < pixels; ++p) {
         if (!masked(frame_, p) || away[p] >= least[p] * parted_.width_px[r]) continue;
         least[p] = away[p] / parted_.width_px[r];

@@ -64,10 +64,10 @@ SeenStrands seen_strands(const field::StrandField& seen) {
   strands.channels.resize(field::kChannels * pixels);
   std::size_t pixel = 0;
   for (int v = 0; v < region.size.height; ++v) {
-    const float* from = seen.channels.ptr<float>(v);
     for (int u = 0; u < region.size.width; ++u, ++pixel) {
+      const auto& from = seen.channels.at(v, u);
       for (std::size_t channel = 0; channel < field::kChannels; ++channel) {
-        strands.channels[channel * pixels + pixel] = *from++;
+        strands.channels[channel * pixels + pixel] = from[channel];
       }
     }
   }

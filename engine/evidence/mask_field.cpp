@@ -8,12 +8,12 @@
 #include <cstddef>
 #include <cstdint>
 #include <iterator>
-#include <opencv2/core.hpp>
-#include <opencv2/imgproc.hpp>
 #include <span>
 #include <vector>
 
 #include "evidence/nearest_pixel.hpp"
+#include "image/blur.hpp"
+#include "image/resize.hpp"
 
 namespace flowdlo::evidence {
 namespace {
@@ -25,13 +25,13 @@ constexpr std::uint8_t kMaskThreshold = 127;  // 0.5 of an 8-bit mask
 bool masked(std::uint8_t value) { return value > kMaskThreshold; }
 
 /// The mean of each two by two pixels: what area_average gives where sides are even.
-cv::Mat1f mean_of_fours(const Frame& frame, int width, int height) {
-  cv::Mat1f mean(height, width);
+image::Image<float> mean_of_fours(const Frame& frame, int width, int height) {
+  image::Image<float> mean({width, height});
   for (int v = 0; v < height; ++v) {
     const std::uint8_t* const upper =
         frame.mask.data() + std::size_t{2} * static_cast<std::size_t>(v * frame.width);
     const std::uint8_t* const lower = upper + frame.width;
-    float* const row = mean[v];
+    float* const row = mean.row(v);
     for (int u = 0; u < width; ++u) {
       const int count = masked(upper[2 * u]) + masked(upper[2 * u + 1]) + masked(lower[2 * u]) +
                         masked(lower[2 * u + 1]);
@@ -42,40 +42,43 @@ cv::Mat1f mean_of_fours(const Frame& frame, int width, int height) {
 }
 
 /// [height / 2, width / 2] share of mask pixels under each field pixel, 0..1.
-cv::Mat1f area_average(const Frame& frame, int width, int height) {
+image::Image<float> area_average(const Frame& frame, int width, int height) {
   if (frame.width == 2 * width && frame.height == 2 * height) {
     return mean_of_fours(frame, width, height);
   }
-  cv::Mat1f mask(frame.height, frame.width);
-  std::transform(frame.mask.begin(), frame.mask.end(), mask[0],
+  image::Image<float> mask({frame.width, frame.height});
+  std::transform(frame.mask.begin(), frame.mask.end(), mask.data(),
                  [](std::uint8_t value) { return masked(value) ? 1.0F : 0.0F; });
-  cv::Mat1f average;
-  cv::resize(mask, average, {width, height}, 0, 0, cv::INTER_AREA);
-  cv::min(average, 1.0, average);  // the weights of a pixel may sum to a little more than 1
+  auto average = image::area_mean<float>(mask, {width, height});
+  float* const shares = average.data();  // the weights of a pixel may sum to a little more than 1
+  std::transform(shares, shares + average.total(), shares,
+                 [](float share) { return std::min(share, 1.0F); });
   return average;
 }
 
 /// The rows in which the mask has a share, and as many beside them as the Gaussian spreads it to.
-cv::Range smoothed_rows(const cv::Mat1f& mask) {
+image::Rect smoothed_rows(const image::Image<float>& mask) {
   const auto empty = [&](int v) {
-    return std::all_of(mask[v], mask[v] + mask.cols, [](float share) { return share == 0; });
+    return std::all_of(mask.row(v), mask.row(v) + mask.width(),
+                       [](float share) { return share == 0; });
   };
   int first = 0;
-  while (first < mask.rows && empty(first)) ++first;
-  int end = mask.rows;
+  while (first < mask.height() && empty(first)) ++first;
+  int end = mask.height();
   while (end > first && empty(end - 1)) --end;
-  if (first == end) return {0, 0};
-  return {std::max(0, first - kSmoothingReach), std::min(mask.rows, end + kSmoothingReach)};
+  if (first == end) return {};
+  const int from = std::max(0, first - kSmoothingReach);
+  const int to = std::min(mask.height(), end + kSmoothingReach);
+  return {0, from, mask.width(), to - from};
 }
 
-cv::Mat1f smoothed(const cv::Mat1f& mask) {
-  cv::Mat1f result(mask.size(), 0.0F);
-  const cv::Range rows = smoothed_rows(mask);
+image::Image<float> smoothed(const image::Image<float>& mask) {
+  image::Image<float> result(mask.size(), 0.0F);
+  const image::Rect rows = smoothed_rows(mask);
   if (rows.empty()) return result;
-  constexpr int kTaps = 2 * kSmoothingReach + 1;
-  cv::Mat1f part = result.rowRange(rows);
-  cv::GaussianBlur(mask.rowRange(rows), part, {kTaps, kTaps}, kSmoothingSigma_px,
-                   kSmoothingSigma_px, cv::BORDER_CONSTANT);
+  const auto taps = image::gaussian(2 * kSmoothingReach + 1, kSmoothingSigma_px);
+  const auto part = image::blurred(mask.part(rows), taps, image::Beyond::kZero);
+  std::copy_n(part.data(), part.total(), result.row(rows.y));
   return result;
 }
 
@@ -106,12 +109,12 @@ MaskField mask_field(const Frame& frame) {
   MaskField field;
   field.width = std::max(1, frame.width / 2);
   field.height = std::max(1, frame.height / 2);
-  const cv::Mat1f mask = area_average(frame, field.width, field.height);
-  const cv::Mat1f smooth = smoothed(mask);
+  const image::Image<float> mask = area_average(frame, field.width, field.height);
+  const image::Image<float> smooth = smoothed(mask);
 
   const auto count = static_cast<std::size_t>(field.width) * static_cast<std::size_t>(field.height);
   std::vector<std::uint8_t> set(count);
-  std::transform(mask.begin(), mask.end(), set.begin(),
+  std::transform(mask.data(), mask.data() + count, set.begin(),
                  [](float share) { return static_cast<std::uint8_t>(share > 0); });
   NearestPixels nearest(set, field.width, field.height);
   field.texels.resize(4 * count);
@@ -121,7 +124,7 @@ MaskField mask_field(const Frame& frame) {
   }
   for (int v = 0; v < field.height; ++v) {
     const auto row = static_cast<std::size_t>(v) * static_cast<std::size_t>(field.width);
-    fill_row(mask[v], smooth[v], nearest.of_row(v), v, field.texels.data() + 4 * row);
+    fill_row(mask.row(v), smooth.row(v), nearest.of_row(v), v, field.texels.data() + 4 * row);
   }
   return field;
 }

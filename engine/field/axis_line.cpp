@@ -1,6 +1,7 @@
 #include "field/axis_line.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <utility>
@@ -25,15 +26,15 @@ constexpr float kTipReach_px = 3;     // around a line's end
 constexpr float kCut = 0.7F;          // kTip on a line that two strands make whose ends touch
 constexpr float kOpen = 0.3F;         // kTip at which a closed line is opened, or an end is one
 
-float tip_near(const cv::Mat& field, const Vector2f& p) {
+float tip_near(const Channels& field, const Vector2f& p) {
   float most = 0;
   const auto reach = static_cast<int>(kTipReach_px);
   for (int dv = -reach; dv <= reach; ++dv) {
     for (int du = -reach; du <= reach; ++du) {
       const int u = pixel_of(p).x + du;
       const int v = pixel_of(p).y + dv;
-      if (u < 0 || v < 0 || u >= field.cols || v >= field.rows) continue;
-      most = std::max(most, field.ptr<float>(v)[u * kChannels + kTip]);
+      if (u < 0 || v < 0 || u >= field.width() || v >= field.height()) continue;
+      most = std::max(most, field.at(v, u)[kTip]);
     }
   }
   return most;
@@ -92,14 +93,13 @@ std::vector<AxisLine> parted(AxisLine line, const Surface& surface) {
 /// All lines' points by pixel, to find what else runs near a place.
 class Neighbours {
  public:
-  Neighbours(const std::vector<AxisLine>& lines, const cv::Size& size)
-      : at_(size, CV_32SC2, cv::Scalar(-1, 0)) {
+  Neighbours(const std::vector<AxisLine>& lines, const image::Size& size) : at_(size, {-1, 0}) {
     for (std::size_t l = 0; l < lines.size(); ++l) {
       for (std::size_t i = 0; i < lines[l].points_px.size(); ++i) {
         const Vector2f& p = lines[l].points_px[i];
-        const cv::Point pixel = pixel_of(p);
-        if (cv::Rect({0, 0}, size).contains(pixel)) {
-          at_.at<cv::Vec2i>(pixel) = {static_cast<int>(l), static_cast<int>(i)};
+        const image::Point pixel = pixel_of(p);
+        if (image::all_of(size).contains(pixel)) {
+          at_.at(pixel) = {static_cast<int>(l), static_cast<int>(i)};
         }
       }
     }
@@ -111,13 +111,12 @@ class Neighbours {
     const Vector2f& p = own.points_px[static_cast<std::size_t>(index)];
     const auto count = static_cast<int>(own.points_px.size());
     const auto reach = static_cast<int>(kClose_px) + 1;
-    const cv::Point middle = pixel_of(p);
-    const cv::Rect around =
-        cv::Rect(middle.x - reach, middle.y - reach, 2 * reach + 1, 2 * reach + 1) &
-        cv::Rect({0, 0}, at_.size());
+    const image::Point middle = pixel_of(p);
+    const image::Rect around =
+        image::grown({middle.x, middle.y, 1, 1}, reach) & image::all_of(at_.size());
     for (int v = around.y; v < around.y + around.height; ++v) {
       for (int u = around.x; u < around.x + around.width; ++u) {
-        const auto& there = at_.at<cv::Vec2i>(v, u);
+        const auto& there = at_.at(v, u);
         if (there[0] < 0) continue;
         int apart = std::abs(there[1] - index);
         if (own.closed) apart = std::min(apart, count - apart);
@@ -131,7 +130,7 @@ class Neighbours {
   }
 
  private:
-  cv::Mat at_;  // [h, w] i32 x 2: line, -1: none, and point
+  image::Image<std::array<int, 2>> at_;  // line, -1: none, and point
 };
 
 /// By how much a line turns from before point `first` to behind point `last`, radians; 0 where it
@@ -193,7 +192,7 @@ std::vector<AxisLine> without(AxisLine line, std::vector<Stretch> stretches) {
 
 /// The lines without the short stretches where one comes close to another and turns: there it may
 /// have changed over to the other, for directions mix at a crossing.
-std::vector<AxisLine> untangled(const std::vector<AxisLine>& lines, const cv::Size& size) {
+std::vector<AxisLine> untangled(const std::vector<AxisLine>& lines, const image::Size& size) {
   const Neighbours neighbours(lines, size);
   std::vector<AxisLine> result;
   for (int l = 0; l < static_cast<int>(lines.size()); ++l) {
@@ -222,7 +221,7 @@ void trim(AxisLine& line) {
 
 }  // namespace
 
-std::vector<AxisLine> axis_lines(const cv::Mat& field) {
+std::vector<AxisLine> axis_lines(const Channels& field) {
   const Surface surface(field);
   std::vector<AxisLine> lines;
   for (AxisLine& whole : untangled(follow_ridges(field), field.size())) {

@@ -3,8 +3,9 @@
 
 #include <Eigen/Core>
 #include <array>
-#include <opencv2/core.hpp>
 #include <vector>
+
+#include "field/channel.hpp"
 
 namespace flowdlo::field {
 
@@ -18,6 +19,6 @@ struct AxisLine {
 /// The axes that show, the clearest first: each ends where its strand does, passes below another
 /// one, or shows no more. A strand that lies on another one is not interrupted. `field` [height,
 /// width, kChannels]. Deterministic.
-[[nodiscard]] std::vector<AxisLine> axis_lines(const cv::Mat& field);
+[[nodiscard]] std::vector<AxisLine> axis_lines(const Channels& field);
 
 }  // namespace flowdlo::field

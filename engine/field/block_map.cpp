@@ -10,7 +10,7 @@ constexpr float kHalf = 0.5F;  // of a pixel, that the mask covers
 void number(BlockMap& map) {
   map.index.assign(static_cast<std::size_t>(map.columns) * static_cast<std::size_t>(map.rows), -1);
   for (std::size_t i = 0; i < map.blocks.size(); ++i) {
-    const cv::Point& at = map.blocks[i];
+    const image::Point& at = map.blocks[i];
     map.index[static_cast<std::size_t>(at.y * map.columns + at.x)] = static_cast<int>(i);
   }
 }
@@ -29,18 +29,18 @@ std::array<int, 9> BlockMap::around(std::size_t i) const {
   return found;
 }
 
-BlockMap blocks_near(const cv::Mat& mask) {
+BlockMap blocks_near(const image::Image<float>& mask) {
   BlockMap map;
-  map.columns = (mask.cols + kBlock_px - 1) / kBlock_px;
-  map.rows = (mask.rows + kBlock_px - 1) / kBlock_px;
+  map.columns = (mask.width() + kBlock_px - 1) / kBlock_px;
+  map.rows = (mask.height() + kBlock_px - 1) / kBlock_px;
   std::vector<std::uint8_t> wanted(static_cast<std::size_t>(map.columns) *
                                    static_cast<std::size_t>(map.rows));
   const auto block = [](int px, int most) { return std::clamp(px / kBlock_px, 0, most - 1); };
-  for (int v = 0; v < mask.rows; ++v) {
-    const auto* row = mask.ptr<float>(v);
+  for (int v = 0; v < mask.height(); ++v) {
+    const auto* row = mask.row(v);
     const int top = block(v - kNear_px, map.rows);
     const int bottom = block(v + kNear_px, map.rows);
-    for (int u = 0; u < mask.cols; ++u) {
+    for (int u = 0; u < mask.width(); ++u) {
       if (row[u] <= kHalf) continue;
       const int left = block(u - kNear_px, map.columns);
       const int right = block(u + kNear_px, map.columns);
@@ -52,17 +52,17 @@ BlockMap blocks_near(const cv::Mat& mask) {
   }
   for (int y = 0; y < map.rows; ++y) {
     for (int x = 0; x < map.columns; ++x) {
-      if (wanted[static_cast<std::size_t>(y * map.columns + x)] != 0) map.blocks.emplace_back(x, y);
+      if (wanted[static_cast<std::size_t>(y * map.columns + x)] != 0) map.blocks.push_back({x, y});
     }
   }
   number(map);
   return map;
 }
 
-BlockMap cut(const BlockMap& map, const cv::Rect& part) {
+BlockMap cut(const BlockMap& map, const image::Rect& part) {
   BlockMap result{map.columns, map.rows, {}, {}};
   std::copy_if(map.blocks.begin(), map.blocks.end(), std::back_inserter(result.blocks),
-               [&](const cv::Point& block) { return part.contains(block); });
+               [&](const image::Point& block) { return part.contains(block); });
   number(result);
   return result;
 }

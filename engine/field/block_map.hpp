@@ -3,8 +3,9 @@
 #pragma once
 
 #include <array>
-#include <opencv2/core.hpp>
 #include <vector>
+
+#include "image/image.hpp"
 
 namespace flowdlo::field {
 
@@ -19,22 +20,22 @@ inline constexpr int kNear_px = 12;
 struct BlockMap {
   int columns = 0;
   int rows = 0;
-  std::vector<cv::Point> blocks;  ///< column and row of each
-  std::vector<int> index;         ///< [rows, columns] into `blocks`, -1: not computed
+  std::vector<image::Point> blocks;  ///< column and row of each
+  std::vector<int> index;            ///< [rows, columns] into `blocks`, -1: not computed
 
   /// [9] the blocks around block `i`, itself in the middle, row by row; -1: none.
   [[nodiscard]] std::array<int, 9> around(std::size_t i) const;
 };
 
 /// Where a block lies in the region; blocks at its right and lower end may reach beyond it.
-[[nodiscard]] inline cv::Rect pixels_of(const cv::Point& block) {
+[[nodiscard]] inline image::Rect pixels_of(const image::Point& block) {
   return {block.x * kBlock_px, block.y * kBlock_px, kBlock_px, kBlock_px};
 }
 
-/// `mask`: [height, width] f32, the rope's share of each pixel of a region.
-[[nodiscard]] BlockMap blocks_near(const cv::Mat& mask);
+/// `mask`: the rope's share of each pixel of a region.
+[[nodiscard]] BlockMap blocks_near(const image::Image<float>& mask);
 
 /// The blocks of `map` within `part`, columns and rows, alone.
-[[nodiscard]] BlockMap cut(const BlockMap& map, const cv::Rect& part);
+[[nodiscard]] BlockMap cut(const BlockMap& map, const image::Rect& part);
 
 }  // namespace flowdlo::field

@@ -1,6 +1,10 @@
 // Channel: what the strand field says of each pixel.
 #pragma once
 
+#include <array>
+
+#include "image/image.hpp"
+
 namespace flowdlo::field {
 
 /// In the network's order. Directions are those of a line, without sense: the cosine and sine of
@@ -21,5 +25,8 @@ enum Channel {
 
 inline constexpr float kCentreWidths = 0.25F;  ///< in kCentre and kUnder
 inline constexpr float kTipWidths = 0.7F;      ///< in kTip
+
+/// What is said of each pixel of a region.
+using Channels = image::Image<std::array<float, kChannels>>;
 
 }  // namespace flowdlo::field

@@ -1,6 +1,7 @@
 #include "field/follower.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <optional>
@@ -29,52 +30,51 @@ constexpr float kLeastLength_px = 0.75F * kRope_px;
 /// Which line passes through each pixel, and in which direction.
 class Marks {
  public:
-  explicit Marks(const cv::Size& size)
-      : marks_(size, CV_32SC(2), cv::Scalar(-1, 0)), angle_(size, CV_32F) {}
+  explicit Marks(const image::Size& size) : marks_(size, {-1, 0}), angle_(size) {}
 
   /// What lies within `reach_px` of a line's point belongs to that line, unless to an earlier one.
   void set(const Vector2f& p, const Vector2f& along, float reach_px, int line, int index) {
-    const cv::Point middle = pixel_of(p);
+    const image::Point middle = pixel_of(p);
     const float angle = std::atan2(along.y(), along.x());
     const auto reach = static_cast<int>(std::ceil(reach_px));
     for (int v = middle.y - reach; v <= middle.y + reach; ++v) {
       for (int u = middle.x - reach; u <= middle.x + reach; ++u) {
         const Vector2f off = Vector2f(static_cast<float>(u), static_cast<float>(v)) - p;
         if (!inside({u, v}) || off.norm() > reach_px) continue;
-        auto& mark = marks_.at<cv::Vec2i>(v, u);
+        auto& mark = marks_.at(v, u);
         const bool own = mark[0] == line && std::abs(mark[1] - index) <= kOwn;
         if (mark[0] >= 0 && !own) continue;
         mark = {line, index};
-        angle_.at<float>(v, u) = angle;
+        angle_.at(v, u) = angle;
       }
     }
   }
 
   /// Whether a line runs by here in that direction; not what `line` has just left behind.
   [[nodiscard]] bool taken(const Vector2f& p, const Vector2f& along, int line, int index) const {
-    const cv::Point pixel = pixel_of(p);
+    const image::Point pixel = pixel_of(p);
     if (!inside(pixel)) return true;
-    const auto mark = marks_.at<cv::Vec2i>(pixel);
+    const auto mark = marks_.at(pixel);
     if (mark[0] < 0 || (mark[0] == line && std::abs(mark[1] - index) <= kOwn)) return false;
-    const float angle = angle_.at<float>(pixel);
+    const float angle = angle_.at(pixel);
     const float sine = along.y() * std::cos(angle) - along.x() * std::sin(angle);
     return std::abs(sine) < std::sin(kOneLine);
   }
 
  private:
-  [[nodiscard]] bool inside(const cv::Point& p) const {
-    return p.x >= 0 && p.y >= 0 && p.x < marks_.cols && p.y < marks_.rows;
+  [[nodiscard]] bool inside(const image::Point& p) const {
+    return p.x >= 0 && p.y >= 0 && p.x < marks_.width() && p.y < marks_.height();
   }
 
-  cv::Mat marks_;  // [h, w] i32 x 2: the line, -1: none, and the number of its point
-  cv::Mat angle_;  // [h, w] f32, radians
+  image::Image<std::array<int, 2>> marks_;  // the line, -1: none, and the number of its point
+  image::Image<float> angle_;               // radians
 };
 
 /// Follows one ridge after another; none twice.
 class Follower {
  public:
-  explicit Follower(const cv::Mat& field)
-      : surface_(field), marks_(field.size()), most_(field.rows * field.cols) {}
+  explicit Follower(const Channels& field)
+      : surface_(field), marks_(field.size()), most_(field.size().area()) {}
 
   /// The line through `seed`; fewer than two points where a line is there already.
   AxisLine follow(const RidgePoint& seed) {
@@ -138,7 +138,7 @@ class Follower {
 
 }  // namespace
 
-std::vector<AxisLine> follow_ridges(const cv::Mat& field) {
+std::vector<AxisLine> follow_ridges(const Channels& field) {
   std::vector<RidgePoint> seeds = ridges(field);
   std::stable_sort(seeds.begin(), seeds.end(), [](const RidgePoint& a, const RidgePoint& b) {
     return a.nearness > b.nearness;

@@ -4,8 +4,6 @@
 #include <cmath>
 #include <string>
 
-#include "field/sight.hpp"
-
 namespace flowdlo::field {
 namespace {
 
@@ -62,12 +60,13 @@ class Recorder {
 float likely(float logit) { return 1 / (1 + std::exp(-logit)); }
 
 /// What a block's places say, pixel by pixel.
-void put(const float* places, const cv::Point& block, cv::Mat& output) {
+void put(const float* places, const image::Point& block, Channels& output) {
   for (int y = 0; y < kBlock_px; ++y) {
     const int v = block.y * kBlock_px + y;
-    if (v >= output.rows) return;
-    float* to = output.ptr<float>(v) + block.x * kBlock_px * kChannels;
-    for (int x = 0; x < kBlock_px && block.x * kBlock_px + x < output.cols; ++x, to += kChannels) {
+    if (v >= output.height()) return;
+    const int left = block.x * kBlock_px;
+    for (int x = 0; x < kBlock_px && left + x < output.width(); ++x) {
+      float* const to = output.at(v, left + x).data();
       const float* from = places + (y / kFold * kBlockSide + x / kFold) * weights::kFieldOutputs +
                           y % kFold * kFold + x % kFold;
       for (int c = 0; c < kChannels; ++c) to[c] = from[c * kPixelsOfPlace];
@@ -77,21 +76,18 @@ void put(const float* places, const cv::Point& block, cv::Mat& output) {
 }
 
 /// What a block's places are given: the planes of 2 x 2 pixels each.
-void take(const cv::Mat& input, const cv::Point& block, float* places) {
+void take(const Planes& input, const image::Point& block, float* places) {
   for (int y = 0; y < kBlock_px; ++y) {
     const int v = block.y * kBlock_px + y;
-    if (v >= input.rows) return;
-    const float* from = input.ptr<float>(v) + block.x * kBlock_px * kPlanes;
-    for (int x = 0; x < kBlock_px && block.x * kBlock_px + x < input.cols; ++x, from += kPlanes) {
+    if (v >= input.height()) return;
+    const int left = block.x * kBlock_px;
+    for (int x = 0; x < kBlock_px && left + x < input.width(); ++x) {
+      const float* const from = input.at(v, left + x).data();
       float* to = places + (y / kFold * kBlockSide + x / kFold) * weights::kFieldInputs +
                   y % kFold * kFold + x % kFold;
       for (int c = 0; c < kPlanes; ++c) to[c * kPixelsOfPlace] = from[c];
     }
   }
-}
-
-cv::Rect grown(const cv::Rect& part, int by) {
-  return {part.x - by, part.y - by, part.width + 2 * by, part.height + 2 * by};
 }
 
 }  // namespace
@@ -136,8 +132,8 @@ Result<Network> Network::create(std::shared_ptr<const weights::FieldWeights> wei
   return network;
 }
 
-Result<void> Network::run(const cv::Mat& input, const BlockMap& blocks, const cv::Rect& keep,
-                          cv::Mat& output) {
+Result<void> Network::run(const Planes& input, const BlockMap& blocks, const image::Rect& keep,
+                          Channels& output) {
   const auto count = static_cast<int>(blocks.blocks.size());
   if (count > capacity_) {
     int capacity = capacity_;
@@ -169,7 +165,7 @@ Result<void> Network::run(const cv::Mat& input, const BlockMap& blocks, const cv
   const auto out = used(weights::kFieldOutputs);
   program_->read(output_, out);
   for (int i = 0; i < count; ++i) {
-    const cv::Point& block = blocks.blocks[static_cast<std::size_t>(i)];
+    const image::Point& block = blocks.blocks[static_cast<std::size_t>(i)];
     if (!keep.contains(block)) continue;
     put(out.data() + static_cast<std::ptrdiff_t>(i) * kPlaces * weights::kFieldOutputs, block,
         output);
@@ -177,13 +173,13 @@ Result<void> Network::run(const cv::Mat& input, const BlockMap& blocks, const cv
   return {};
 }
 
-Result<void> Network::run_parts(const cv::Mat& input, const BlockMap& blocks, const cv::Rect& keep,
-                                cv::Mat& output) {
-  const BlockMap part = cut(blocks, grown(keep, kHalo));
+Result<void> Network::run_parts(const Planes& input, const BlockMap& blocks,
+                                const image::Rect& keep, Channels& output) {
+  const BlockMap part = cut(blocks, image::grown(keep, kHalo));
   const bool whole = part.blocks.size() <= static_cast<std::size_t>(kMostBlocks);
   if (whole) return part.blocks.empty() ? Result<void>{} : run(input, part, keep, output);
-  cv::Rect first = keep;
-  cv::Rect second = keep;
+  image::Rect first = keep;
+  image::Rect second = keep;
   if (keep.width >= keep.height) {
     first.width /= 2;
     second.x += first.width;
@@ -197,9 +193,9 @@ Result<void> Network::run_parts(const cv::Mat& input, const BlockMap& blocks, co
   return run_parts(input, blocks, second, output);
 }
 
-Result<cv::Mat> Network::see(const cv::Mat& input, const BlockMap& blocks) {
-  cv::Mat output = cv::Mat::zeros(input.size(), CV_32FC(kChannels));
-  const cv::Rect everything(0, 0, blocks.columns, blocks.rows);
+Result<Channels> Network::see(const Planes& input, const BlockMap& blocks) {
+  Channels output(input.size(), {});
+  const image::Rect everything{0, 0, blocks.columns, blocks.rows};
   if (auto done = run_parts(input, blocks, everything, output); !done) return done.error();
   return output;
 }

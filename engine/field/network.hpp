@@ -3,11 +3,11 @@
 
 #include <functional>
 #include <memory>
-#include <opencv2/core.hpp>
 #include <optional>
 
 #include "field/block_map.hpp"
 #include "field/channel.hpp"
+#include "field/sight.hpp"
 #include "flowdlo/result.hpp"
 #include "ops/program.hpp"
 #include "weights/field_weights.hpp"
@@ -27,10 +27,9 @@ class Network {
   [[nodiscard]] static Result<Network> create(std::shared_ptr<const weights::FieldWeights> weights,
                                               ProgramFactory make_program);
 
-  /// [height, width, kChannels] f32 for an input [height, width, kPlanes]: what the network says
-  /// within `blocks`, elsewhere no rope. Centre, tip, under, rope and edge lie between 0 and 1.
-  /// Fails with kDeviceLost.
-  [[nodiscard]] Result<cv::Mat> see(const cv::Mat& input, const BlockMap& blocks);
+  /// What the network says of an input within `blocks`, elsewhere no rope. Centre, tip, under, rope
+  /// and edge lie between 0 and 1. Fails with kDeviceLost.
+  [[nodiscard]] Result<Channels> see(const Planes& input, const BlockMap& blocks);
 
   /// Milliseconds of the last program that ran, by stage.
   [[nodiscard]] std::vector<std::pair<std::string, double>> stage_times_ms() const {
@@ -43,10 +42,10 @@ class Network {
 
   [[nodiscard]] Result<void> build(int capacity);
   /// The blocks of one run; what it says goes to `output` for those that `keep` holds.
-  [[nodiscard]] Result<void> run(const cv::Mat& input, const BlockMap& blocks, const cv::Rect& keep,
-                                 cv::Mat& output);
-  [[nodiscard]] Result<void> run_parts(const cv::Mat& input, const BlockMap& blocks,
-                                       const cv::Rect& keep, cv::Mat& output);
+  [[nodiscard]] Result<void> run(const Planes& input, const BlockMap& blocks,
+                                 const image::Rect& keep, Channels& output);
+  [[nodiscard]] Result<void> run_parts(const Planes& input, const BlockMap& blocks,
+                                       const image::Rect& keep, Channels& output);
 
   std::shared_ptr<const weights::FieldWeights> weights_;
   ProgramFactory make_program_;

@@ -20,12 +20,10 @@ Eigen::Vector2f Region::to_frame(const Eigen::Vector2f& region_px) const {
   return ((region_px.array() + 0.5F) / scale.array() - 0.5F).matrix() + corner;
 }
 
-Region region_around(const cv::Rect& mask_box, const cv::Size& frame, float rope_width_px) {
+Region region_around(const image::Rect& mask_box, const image::Size& frame, float rope_width_px) {
   const int margin = static_cast<int>(std::ceil(kMarginWidths * rope_width_px + kMargin_px));
-  const cv::Rect wanted(mask_box.x - margin, mask_box.y - margin, mask_box.width + 2 * margin,
-                        mask_box.height + 2 * margin);
   Region region;
-  region.box = wanted & cv::Rect({0, 0}, frame);
+  region.box = image::grown(mask_box, margin) & image::all_of(frame);
   const float scale = std::min(kRope_px / rope_width_px, kMostScale);
   const auto side = [&](int px) {
     return std::max(kLeastSide_px, static_cast<int>(std::lround(scale * static_cast<float>(px))));

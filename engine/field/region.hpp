@@ -3,7 +3,8 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <opencv2/core.hpp>
+
+#include "image/rect.hpp"
 
 namespace flowdlo::field {
 
@@ -18,8 +19,8 @@ inline constexpr float kMargin_px = 4;
 inline constexpr float kMostScale = 4;
 
 struct Region {
-  cv::Rect box;                       ///< pixels of the frame
-  cv::Size size;                      ///< pixels of the region, at least 16 x 16
+  image::Rect box;                    ///< pixels of the frame
+  image::Size size;                   ///< pixels of the region, at least 16 x 16
   Eigen::Vector2f scale{1.0F, 1.0F};  ///< pixels of the region a pixel of the frame, in u and v
 
   /// Centres of pixels are whole numbers in both.
@@ -29,7 +30,7 @@ struct Region {
 
 /// Of a mask within `mask_box` of a frame; `rope_width_px` is the rope's width there, frame pixels,
 /// and above 0. Expects a box that is not empty.
-[[nodiscard]] Region region_around(const cv::Rect& mask_box, const cv::Size& frame,
+[[nodiscard]] Region region_around(const image::Rect& mask_box, const image::Size& frame,
                                    float rope_width_px);
 
 }  // namespace flowdlo::field

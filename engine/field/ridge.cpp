@@ -10,17 +10,15 @@
 namespace flowdlo::field {
 namespace {
 
-const float* pixel(const cv::Mat& field, int u, int v) {
-  return field.ptr<float>(v) + u * kChannels;
-}
+const float* pixel(const Channels& field, int u, int v) { return field.at(v, u).data(); }
 
 }  // namespace
 
-std::vector<RidgePoint> ridges(const cv::Mat& field, float least) {
+std::vector<RidgePoint> ridges(const Channels& field, float least) {
   const Surface surface(field);
   std::vector<RidgePoint> found;
-  for (int v = 0; v < field.rows; ++v) {
-    for (int u = 0; u < field.cols; ++u) {
+  for (int v = 0; v < field.height(); ++v) {
+    for (int u = 0; u < field.width(); ++u) {
       const float* const at = pixel(field, u, v);
       if (at[kCentre] < least) continue;
       const float angle = 0.5F * std::atan2(at[kSin], at[kCos]);
@@ -41,16 +39,17 @@ std::vector<RidgePoint> ridges(const cv::Mat& field, float least) {
   return found;
 }
 
-std::vector<Eigen::Vector2f> tips(const cv::Mat& field, float least) {
+std::vector<Eigen::Vector2f> tips(const Channels& field, float least) {
   constexpr int kAlone_px = static_cast<int>(kRope_px / 2);  // no other tip within this
   std::vector<Eigen::Vector2f> found;
-  for (int v = 0; v < field.rows; ++v) {
-    for (int u = 0; u < field.cols; ++u) {
+  for (int v = 0; v < field.height(); ++v) {
+    for (int u = 0; u < field.width(); ++u) {
       const float here = pixel(field, u, v)[kTip];
       if (here < least) continue;
       bool highest = true;
-      for (int y = std::max(0, v - kAlone_px); y <= std::min(field.rows - 1, v + kAlone_px); ++y) {
-        for (int x = std::max(0, u - kAlone_px); x <= std::min(field.cols - 1, u + kAlone_px);
+      for (int y = std::max(0, v - kAlone_px); y <= std::min(field.height() - 1, v + kAlone_px);
+           ++y) {
+        for (int x = std::max(0, u - kAlone_px); x <= std::min(field.width() - 1, u + kAlone_px);
              ++x) {
           const float other = pixel(field, x, y)[kTip];
           const bool before = y < v || (y == v && x < u);  // of equals the first

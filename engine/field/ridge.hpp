@@ -2,8 +2,9 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <opencv2/core.hpp>
 #include <vector>
+
+#include "field/channel.hpp"
 
 namespace flowdlo::field {
 
@@ -17,13 +18,13 @@ struct RidgePoint {
 /// Least kCentre of a ridge.
 inline constexpr float kRidge = 0.4F;
 
-/// One pixel or two across, along every strand that shows. `field` [height, width, kChannels].
-[[nodiscard]] std::vector<RidgePoint> ridges(const cv::Mat& field, float least = kRidge);
+/// One pixel or two across, along every strand that shows.
+[[nodiscard]] std::vector<RidgePoint> ridges(const Channels& field, float least = kRidge);
 
 /// Least kTip of an end.
 inline constexpr float kTipPeak = 0.5F;
 
 /// Where tips are likeliest; pixels of the region.
-[[nodiscard]] std::vector<Eigen::Vector2f> tips(const cv::Mat& field, float least = kTipPeak);
+[[nodiscard]] std::vector<Eigen::Vector2f> tips(const Channels& field, float least = kTipPeak);
 
 }  // namespace flowdlo::field

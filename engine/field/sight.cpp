@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <opencv2/imgproc.hpp>
+#include <span>
 #include <vector>
 
 #include "geometry/depth.hpp"
+#include "image/blur.hpp"
+#include "image/resize.hpp"
 
 namespace flowdlo::field {
 namespace {
@@ -16,15 +18,16 @@ constexpr float kHalf = 0.5F;          // share of a pixel that makes it mask, o
 constexpr float kLeastSpread = 0.05F;  // of a rope of one colour, 0 to 1
 constexpr int kLeastColored = 20;      // rope pixels that tell its colour
 constexpr int kCell_px = 16;           // of the grid on which the rope's depth is known
-constexpr int kReach = 3;              // cells around that tell it
-constexpr float kFarWeight = 1e-4F;    // of the whole rope's depth, where no cell around has any
-constexpr double kLevel = 0.03;  // cells squared of spread that a plane's slope is held to 0 by
+// What the cells around tell of it, three to each side: exact in binary.
+const std::vector<float> kAround{0.03125F, 0.109375F, 0.21875F, 0.28125F,
+                                 0.21875F, 0.109375F, 0.03125F};
+constexpr float kFarWeight = 1e-4F;  // of the whole rope's depth, where no cell around has any
+constexpr double kLevel = 0.03;      // cells squared of spread that a plane's slope is held to 0 by
 
-cv::Mat resampled(const cv::Mat& image, const cv::Size& size) {
-  cv::Mat result;
-  const bool smaller = size.width < image.cols;
-  cv::resize(image, result, size, 0, 0, smaller ? cv::INTER_AREA : cv::INTER_LINEAR);
-  return result;
+template <class T>
+image::Image<T> resampled(const image::Image<T>& given, const image::Size& size) {
+  const bool smaller = size.width < given.width();
+  return smaller ? image::area_mean<T>(given, size) : image::bilinear<T>(given, size);
 }
 
 /// The middle one; `values` is not empty and is reordered.
@@ -36,19 +39,19 @@ float median(std::vector<float>& values) {
 
 /// The rope's colour as the mask shows it, and how much it varies.
 struct Palette {
-  cv::Vec3f middle{0, 0, 0};
+  Color middle{};
   float spread = 1;
 };
 
 Palette palette_of(const Sight& sight) {
-  std::vector<cv::Vec3f> seen;
+  std::vector<Color> seen;
   const auto collect = [&](bool mask_only) {
     seen.clear();
-    for (int v = 0; v < sight.color.rows; ++v) {
-      const auto* color = sight.color.ptr<cv::Vec3f>(v);
-      const auto* mask = sight.mask.ptr<float>(v);
-      const auto* inside = sight.inside.ptr<float>(v);
-      for (int u = 0; u < sight.color.cols; ++u) {
+    for (int v = 0; v < sight.color.height(); ++v) {
+      const auto* color = sight.color.row(v);
+      const auto* mask = sight.mask.row(v);
+      const auto* inside = sight.inside.row(v);
+      for (int u = 0; u < sight.color.width(); ++u) {
         if (inside[u] > kHalf && (!mask_only || mask[u] > kHalf)) seen.push_back(color[u]);
       }
     }
@@ -59,7 +62,7 @@ Palette palette_of(const Sight& sight) {
   if (seen.empty()) return palette;
   double deviation = 0;
   std::vector<float> values(seen.size());
-  for (int k = 0; k < 3; ++k) {
+  for (std::size_t k = 0; k < 3; ++k) {
     double sum = 0;
     double squares = 0;
     for (std::size_t i = 0; i < seen.size(); ++i) {
@@ -77,40 +80,38 @@ Palette palette_of(const Sight& sight) {
 
 /// Sums over the cells around each cell, by how near they lie: of weights, of places about the
 /// grid's corner, and of depths.
-struct Moments {
-  cv::Mat weight;  // f32, of one cell
-  cv::Mat place;   // f32 x 5: x, y, xx, xy, yy, weighed; cells
-  cv::Mat depth;   // f32 x 3: z, xz, yz, weighed; metres and cells
+class Moments {
+ public:
+  explicit Moments(const image::Size& cells) {
+    for (auto& sum : sums_) sum = image::Image<float>(cells, 0.0F);
+  }
 
-  explicit Moments(const cv::Size& cells)
-      : weight(cv::Mat::zeros(cells, CV_32F)),
-        place(cv::Mat::zeros(cells, CV_32FC(5))),
-        depth(cv::Mat::zeros(cells, CV_32FC3)) {}
-
-  void set(const cv::Point& cell, float count, float depth_m) {
+  void set(const image::Point& cell, float count, float depth_m) {
     const auto x = static_cast<float>(cell.x);
     const auto y = static_cast<float>(cell.y);
-    weight.at<float>(cell) = count;
-    place.at<cv::Vec<float, 5>>(cell) = count * cv::Vec<float, 5>(x, y, x * x, x * y, y * y);
-    depth.at<cv::Vec3f>(cell) = count * depth_m * cv::Vec3f(1, x, y);
+    const float weighed_m = count * depth_m;
+    const std::array values{count,           count * x,       count * y,
+                            count * (x * x), count * (x * y), count * (y * y),
+                            weighed_m,       weighed_m * x,   weighed_m * y};
+    for (std::size_t k = 0; k < kSums; ++k) sums_[k].at(cell) = values[k];
   }
 
   void gather() {
-    constexpr int kSide = 2 * kReach + 1;
-    for (cv::Mat* sums : {&weight, &place, &depth}) {
-      cv::GaussianBlur(*sums, *sums, {kSide, kSide}, 0, 0, cv::BORDER_CONSTANT);
-    }
+    for (auto& sum : sums_) sum = image::blurred(sum, kAround, image::Beyond::kZero);
   }
 
   /// At a cell: of the plane that fits the cells around best, all but level where they do not tell
   /// its slope; `far_m` where there are none.
-  [[nodiscard]] float plane_m(const cv::Point& cell, float far_m) const {
-    const auto w = static_cast<double>(weight.at<float>(cell) + kFarWeight);
-    const cv::Vec<double, 5> p = place.at<cv::Vec<float, 5>>(cell);
-    const cv::Vec3d d = depth.at<cv::Vec3f>(cell);
+  [[nodiscard]] float plane_m(const image::Point& cell, float far_m) const {
+    const float weight = sums_[0].at(cell);
+    const auto w = static_cast<double>(weight + kFarWeight);
+    std::array<double, 5> p{};  // x, y, xx, xy, yy
+    std::array<double, 3> d{};  // z, xz, yz
+    for (std::size_t k = 0; k < p.size(); ++k) p[k] = static_cast<double>(sums_[1 + k].at(cell));
+    for (std::size_t k = 0; k < d.size(); ++k) d[k] = static_cast<double>(sums_[6 + k].at(cell));
     const double x = cell.x;  // sums about the corner become means about this cell
     const double y = cell.y;
-    const auto known = static_cast<double>(weight.at<float>(cell));
+    const auto known = static_cast<double>(weight);
     const double mx = (p[0] - known * x) / w;
     const double my = (p[1] - known * y) / w;
     const double xx = (p[2] - 2 * x * p[0] + known * x * x) / w - mx * mx + kLevel;
@@ -124,27 +125,32 @@ struct Moments {
     const double slope_y = (xx * yz - xy * xz) / determinant;
     return static_cast<float>(z - slope_x * mx - slope_y * my);
   }
+
+ private:
+  // The weight; x, y, xx, xy and yy, weighed, in cells; z, xz and yz, weighed, in metres and cells.
+  static constexpr std::size_t kSums = 9;
+  std::array<image::Image<float>, kSums> sums_;
 };
 
 /// Depth of the rope around each place, smooth: a plane through the medians of the cells of a grid,
 /// for each cell its own. Occluders and holes weigh nothing, for they are no mask; a table seen
 /// aslant leaves no steps, nor an error at the image's border. Empty where the mask has no depth at
 /// all.
-cv::Mat rope_depth(const Sight& sight) {
-  const cv::Size size = sight.depth_m.size();
+image::Image<float> rope_depth(const Sight& sight) {
+  const image::Size size = sight.depth_m.size();
   const auto cells_in = [](int px) { return (px + kCell_px - 1) / kCell_px; };
-  const cv::Size cells(cells_in(size.width) + 2, cells_in(size.height) + 2);  // one around
+  const image::Size cells{cells_in(size.width) + 2, cells_in(size.height) + 2};  // one around
   Moments moments(cells);
   std::vector<float> all;
   std::vector<float> values;
   for (int row = 1; row < cells.height - 1; ++row) {
     for (int column = 1; column < cells.width - 1; ++column) {
       values.clear();
-      const cv::Point corner(kCell_px * (column - 1), kCell_px * (row - 1));
+      const image::Point corner{kCell_px * (column - 1), kCell_px * (row - 1)};
       for (int v = corner.y; v < std::min(size.height, corner.y + kCell_px); ++v) {
         for (int u = corner.x; u < std::min(size.width, corner.x + kCell_px); ++u) {
-          const float z = sight.depth_m.at<float>(v, u);
-          if (z > 0 && sight.mask.at<float>(v, u) > kHalf) values.push_back(z);
+          const float z = sight.depth_m.at(v, u);
+          if (z > 0 && sight.mask.at(v, u) > kHalf) values.push_back(z);
         }
       }
       if (values.empty()) continue;
@@ -156,28 +162,51 @@ cv::Mat rope_depth(const Sight& sight) {
   if (all.empty()) return {};
   const float whole = median(all);
   moments.gather();
-  cv::Mat coarse(cells, CV_32F);
+  image::Image<float> coarse(cells);
   for (int row = 0; row < cells.height; ++row) {
     for (int column = 0; column < cells.width; ++column) {
-      coarse.at<float>(row, column) = moments.plane_m({column, row}, whole);
+      coarse.at(row, column) = moments.plane_m({column, row}, whole);
     }
   }
-  cv::Mat fine;
-  cv::resize(coarse, fine, cells * kCell_px, 0, 0, cv::INTER_LINEAR);
-  return fine(cv::Rect({kCell_px, kCell_px}, size));
+  const auto fine = image::bilinear<float>(coarse, cells * kCell_px);
+  return fine.part({kCell_px, kCell_px, size.width, size.height});
+}
+
+using Bgr = std::array<std::uint8_t, 3>;
+
+/// Values from 0 to 1.
+image::Image<Color> shares_of(const image::Image<const Bgr>& picture) {
+  constexpr auto kScale = static_cast<float>(1.0 / 255);
+  image::Image<Color> shares(picture.size());
+  for (int v = 0; v < picture.height(); ++v) {
+    std::transform(picture.row(v), picture.row(v) + picture.width(), shares.row(v),
+                   [](const Bgr& at) {
+                     return Color{at[0] * kScale, at[1] * kScale, at[2] * kScale};
+                   });
+  }
+  return shares;
 }
 
 /// Whether a picture shows anything: one of a single colour, as a camera's stream that never began
 /// is, does not.
-bool varies(const cv::Mat& bgr) {
-  const auto first = bgr.at<cv::Vec3b>(0, 0);
-  for (int v = 0; v < bgr.rows; ++v) {
-    const auto* row = bgr.ptr<cv::Vec3b>(v);
-    if (std::any_of(row, row + bgr.cols, [&](const cv::Vec3b& at) { return at != first; })) {
+bool varies(const image::Image<const Bgr>& picture) {
+  const auto first = picture.at(0, 0);
+  for (int v = 0; v < picture.height(); ++v) {
+    const auto* row = picture.row(v);
+    if (std::any_of(row, row + picture.width(), [&](const Bgr& at) { return at != first; })) {
       return true;
     }
   }
   return false;
+}
+
+/// A part of an image of the frame.
+template <class T, class Stored>
+image::Image<const T> part_of(std::span<const Stored> pixels, const Frame& frame,
+                              const image::Rect& box) {
+  const image::Image<const T> whole(reinterpret_cast<const T*>(pixels.data()),
+                                    {frame.width, frame.height}, frame.width);
+  return whole.part(box);
 }
 
 float within(float value) { return std::clamp(value, -kMost, kMost); }
@@ -185,48 +214,43 @@ float within(float value) { return std::clamp(value, -kMost, kMost); }
 }  // namespace
 
 Sight look(const Frame& frame, const Region& region) {
-  const cv::Size size(frame.width, frame.height);
-  const auto part = [&](int type, const void* data) {  // OpenCV has no view of constant pixels
-    return cv::Mat(size, type, const_cast<void*>(data))(region.box);
-  };
   Sight sight;
   sight.focal_px = frame.intrinsics.fx * region.scale.x();
   {  // images of the frame's size go before the next ones come: they are large
-    cv::Mat covered;
-    part(CV_8UC1, frame.mask.data()).convertTo(covered, CV_32F);
-    cv::threshold(covered, covered, 127, 1, cv::THRESH_BINARY);
+    const auto mask = part_of<std::uint8_t>(frame.mask, frame, region.box);
+    image::Image<float> covered(mask.size());
+    for (int v = 0; v < mask.height(); ++v) {
+      std::transform(mask.row(v), mask.row(v) + mask.width(), covered.row(v),
+                     [](std::uint8_t value) { return value > 127 ? 1.0F : 0.0F; });
+    }
     sight.mask = resampled(covered, region.size);
   }
-  const cv::Mat depth_m = part(CV_32FC1, frame.depth_m.data());
-  cv::Mat measured(depth_m.size(), CV_32F);
-  cv::Mat known(depth_m.size(), CV_32F);
-  for (int v = 0; v < depth_m.rows; ++v) {
-    const auto* from = depth_m.ptr<float>(v);
-    for (int u = 0; u < depth_m.cols; ++u) {
+  const auto depth_m = part_of<float>(frame.depth_m, frame, region.box);
+  image::Image<float> measured(depth_m.size());
+  image::Image<float> known(depth_m.size());
+  for (int v = 0; v < depth_m.height(); ++v) {
+    const auto* from = depth_m.row(v);
+    for (int u = 0; u < depth_m.width(); ++u) {
       const bool good = geometry::measured(from[u]);
-      measured.at<float>(v, u) = good ? 1.0F : 0.0F;
-      known.at<float>(v, u) = good ? from[u] : 0.0F;
+      measured.at(v, u) = good ? 1.0F : 0.0F;
+      known.at(v, u) = good ? from[u] : 0.0F;
     }
   }
-  const cv::Mat share = resampled(measured, region.size);
-  measured.release();
+  const auto share = resampled(measured, region.size);
+  measured = {};
   sight.depth_m = resampled(known, region.size);
-  known.release();
-  for (int v = 0; v < share.rows; ++v) {
-    for (int u = 0; u < share.cols; ++u) {
-      float& z = sight.depth_m.at<float>(v, u);
-      const float by = share.at<float>(v, u);
+  known = {};
+  for (int v = 0; v < share.height(); ++v) {
+    for (int u = 0; u < share.width(); ++u) {
+      float& z = sight.depth_m.at(v, u);
+      const float by = share.at(v, u);
       z = by > kHalf ? z / by : 0.0F;
     }
   }
-  sight.inside = cv::Mat::ones(region.size, CV_32F);
+  sight.inside = image::Image<float>(region.size, 1.0F);
   if (!frame.color_bgr.empty()) {
-    const cv::Mat given = part(CV_8UC3, frame.color_bgr.data());
-    if (varies(given)) {
-      cv::Mat color;
-      given.convertTo(color, CV_32F, 1.0 / 255);
-      sight.color = resampled(color, region.size);
-    }
+    const auto given = part_of<Bgr>(frame.color_bgr, frame, region.box);
+    if (varies(given)) sight.color = resampled(shares_of(given), region.size);
   }
   return sight;
 }
@@ -234,32 +258,32 @@ Sight look(const Frame& frame, const Region& region) {
 namespace {
 
 /// Fills the planes of some pixels at a time.
-class Planes {
+class Filler {
  public:
-  explicit Planes(const Sight& sight)
+  explicit Filler(const Sight& sight)
       : sight_(sight),
         palette_(sight.color.empty() ? Palette{} : palette_of(sight)),
         around_(rope_depth(sight)) {}
 
-  void fill(const cv::Rect& part, cv::Mat& input) const {
-    input(part).setTo(0);
+  void fill(const image::Rect& part, Planes& input) const {
+    input.part(part).fill({});
     const bool has_color = !sight_.color.empty();
     for (int v = part.y; v < part.y + part.height; ++v) {
-      auto* to = input.ptr<float>(v) + part.x * kPlanes;
-      const auto* inside = sight_.inside.ptr<float>(v);
-      const auto* mask = sight_.mask.ptr<float>(v);
-      const auto* depth = sight_.depth_m.ptr<float>(v);
-      for (int u = part.x; u < part.x + part.width; ++u, to += kPlanes) {
+      const auto* inside = sight_.inside.row(v);
+      const auto* mask = sight_.mask.row(v);
+      const auto* depth = sight_.depth_m.row(v);
+      for (int u = part.x; u < part.x + part.width; ++u) {
         if (inside[u] <= kHalf) continue;
+        auto& to = input.at(v, u);
         if (has_color) {
-          const auto& color = sight_.color.at<cv::Vec3f>(v, u);
-          for (int k = 0; k < 3; ++k) {
+          const auto& color = sight_.color.at(v, u);
+          for (std::size_t k = 0; k < 3; ++k) {
             to[kBlue + k] = within((color[k] - palette_.middle[k]) / palette_.spread);
           }
           to[kHasColor] = 1;
         }
         if (depth[u] > 0 && !around_.empty()) {
-          const float rope_m = around_.at<float>(v, u);
+          const float rope_m = around_.at(v, u);
           const float width_m = kRope_px * rope_m / sight_.focal_px;
           to[kDepth] = within((depth[u] - rope_m) / (2 * width_m));
           to[kHasDepth] = 1;
@@ -272,22 +296,22 @@ class Planes {
  private:
   const Sight& sight_;
   Palette palette_;
-  cv::Mat around_;
+  image::Image<float> around_;
 };
 
 }  // namespace
 
-cv::Mat input_of(const Sight& sight) {
-  cv::Mat input(sight.mask.size(), CV_32FC(kPlanes));
-  Planes(sight).fill(cv::Rect({0, 0}, input.size()), input);
+Planes input_of(const Sight& sight) {
+  Planes input(sight.mask.size());
+  Filler(sight).fill(image::all_of(input.size()), input);
   return input;
 }
 
-cv::Mat input_of(const Sight& sight, const BlockMap& blocks) {
-  cv::Mat input(sight.mask.size(), CV_32FC(kPlanes));
-  const Planes planes(sight);
-  for (const cv::Point& block : blocks.blocks) {
-    planes.fill(pixels_of(block) & cv::Rect({0, 0}, input.size()), input);
+Planes input_of(const Sight& sight, const BlockMap& blocks) {
+  Planes input(sight.mask.size());
+  const Filler filler(sight);
+  for (const image::Point& block : blocks.blocks) {
+    filler.fill(pixels_of(block) & image::all_of(input.size()), input);
   }
   return input;
 }

@@ -1,21 +1,24 @@
 // Sight: what a camera shows of a region, and what of it the network is given.
 #pragma once
 
-#include <opencv2/core.hpp>
+#include <array>
 
 #include "field/block_map.hpp"
 #include "field/region.hpp"
 #include "flowdlo/frame.hpp"
+#include "image/image.hpp"
 
 namespace flowdlo::field {
 
+using Color = std::array<float, 3>;
+
 /// Images of one size.
 struct Sight {
-  cv::Mat color;       ///< f32 x 3, BGR, 0 to 1; empty: none, or one colour everywhere
-  cv::Mat mask;        ///< f32, 0 to 1: share of the pixel that the mask covers
-  cv::Mat depth_m;     ///< f32, 0: none
-  cv::Mat inside;      ///< f32, 1 within the camera's image, 0 beyond
-  float focal_px = 0;  ///< fx in pixels of this image
+  image::Image<Color> color;    ///< BGR, 0 to 1; empty: none, or one colour everywhere
+  image::Image<float> mask;     ///< 0 to 1: share of the pixel that the mask covers
+  image::Image<float> depth_m;  ///< 0: none
+  image::Image<float> inside;   ///< 1 within the camera's image, 0 beyond
+  float focal_px = 0;           ///< fx in pixels of this image
 };
 
 /// Expects a valid frame.
@@ -33,11 +36,13 @@ enum Plane {
   kPlanes
 };
 
-/// [height, width, kPlanes] f32: the same for every rope, camera and distance as far as that can be
-/// had. Beyond the camera's image all planes are 0.
-[[nodiscard]] cv::Mat input_of(const Sight& sight);
+using Planes = image::Image<std::array<float, kPlanes>>;
+
+/// The same for every rope, camera and distance as far as that can be had. Beyond the camera's
+/// image all planes are 0.
+[[nodiscard]] Planes input_of(const Sight& sight);
 
 /// Of these blocks alone; what the other pixels hold is nobody's business.
-[[nodiscard]] cv::Mat input_of(const Sight& sight, const BlockMap& blocks);
+[[nodiscard]] Planes input_of(const Sight& sight, const BlockMap& blocks);
 
 }  // namespace flowdlo::field

@@ -21,12 +21,12 @@ constexpr float kSpare = 1.02F;          // a region that has to fit is smaller 
 constexpr int kMostFits = 6;             // and then once more
 
 /// The rope's width over kRope_px as the field has it, in the middle; 1 where it does not say.
-float seen_width(const cv::Mat& field) {
+float seen_width(const Channels& field) {
   std::vector<float> widths;
-  for (int v = 0; v < field.rows; ++v) {
-    const float* at = field.ptr<float>(v);
-    for (int u = 0; u < field.cols; ++u, at += kChannels) {
-      if (at[kCentre] > kSure && at[kRope] > kSure) widths.push_back(at[kWidth]);
+  for (int v = 0; v < field.height(); ++v) {
+    const auto* at = field.row(v);
+    for (int u = 0; u < field.width(); ++u) {
+      if (at[u][kCentre] > kSure && at[u][kRope] > kSure) widths.push_back(at[u][kWidth]);
     }
   }
   if (widths.size() < kLeastAsked) return 1;
@@ -35,7 +35,7 @@ float seen_width(const cv::Mat& field) {
   return std::exp2(*middle);
 }
 
-Error too_large(const cv::Rect& box, float rope_width_px) {
+Error too_large(const image::Rect& box, float rope_width_px) {
   return {ErrorCode::kNoEvidence,
           fmt::format("field: expected the mask of a rope, at most {} pixels and {} blocks near it "
                       "with the rope {} px wide, got one of {} x {} pixels and a rope of {:.1f}; "
@@ -53,8 +53,8 @@ struct View {
 
 /// The region at the rope's width, or magnified less as far as it takes and strands can still be
 /// parted. Fails with kNoEvidence where it would still be too large to be looked at.
-Result<View> view_of(const Frame& frame, const cv::Rect& box, float rope_width_px) {
-  const cv::Size size(frame.width, frame.height);
+Result<View> view_of(const Frame& frame, const image::Rect& box, float rope_width_px) {
+  const image::Size size{frame.width, frame.height};
   const float magnified_px = std::max(rope_width_px, kRope_px / kMostScale);
   float width_px = magnified_px;
   for (int fit = 0; fit < kMostFits && width_px * kLeastWidth <= magnified_px; ++fit) {
@@ -84,7 +84,7 @@ float width_px(const StrandField& seen) {
 
 Result<StrandField> see(const Frame& frame, float rope_width_px, Network& network) {
   const geometry::MaskBox mask = geometry::mask_box(frame);
-  const cv::Rect box(mask.left, mask.top, mask.width, mask.height);
+  const image::Rect box{mask.left, mask.top, mask.width, mask.height};
   if (box.empty()) {
     return Error{ErrorCode::kNoEvidence,
                  "field: expected a mask, got none; check the segmentation"};
@@ -95,7 +95,7 @@ Result<StrandField> see(const Frame& frame, float rope_width_px, Network& networ
     auto view = view_of(frame, box, width_px);
     if (!view) return view.error();
     if (look > 0 && view->region.size.area() <= result.region.size.area()) break;
-    const cv::Mat input = input_of(view->sight, view->blocks);
+    const Planes input = input_of(view->sight, view->blocks);
     view->sight = {};  // six images of the region's size
     auto seen = network.see(input, view->blocks);
     if (!seen) return seen.error();

@@ -1,8 +1,6 @@
 // StrandField: what a small network sees of each pixel around the mask.
 #pragma once
 
-#include <opencv2/core.hpp>
-
 #include "field/network.hpp"
 #include "field/region.hpp"
 #include "flowdlo/frame.hpp"
@@ -11,7 +9,7 @@ namespace flowdlo::field {
 
 struct StrandField {
   Region region;
-  cv::Mat channels;  ///< [height, width, kChannels] of the region; no rope far from the mask
+  Channels channels;  ///< of the region; no rope far from the mask
 };
 
 /// The rope's width in pixels of the frame, as the field has it in the middle; that of the region

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <opencv2/core.hpp>
 #include <optional>
 
 #include "field/channel.hpp"
@@ -11,14 +10,14 @@
 namespace flowdlo::field {
 
 /// The pixel that a place lies in.
-[[nodiscard]] inline cv::Point pixel_of(const Eigen::Vector2f& p) {
+[[nodiscard]] inline image::Point pixel_of(const Eigen::Vector2f& p) {
   return {geometry::nearest_px(p.x()), geometry::nearest_px(p.y())};
 }
 
-/// A view of `field` [height, width, kChannels], which has to outlive it. Bilinear; 0 beyond it.
+/// A view of `field`, which has to outlive it. Bilinear; 0 beyond it.
 class Surface {
  public:
-  explicit Surface(const cv::Mat& field) : field_(field) {}
+  explicit Surface(const Channels& field) : field_(field) {}
 
   [[nodiscard]] float at(const Eigen::Vector2f& p, Channel channel) const;
 
@@ -29,11 +28,11 @@ class Surface {
 
  private:
   [[nodiscard]] float pixel(int u, int v, Channel channel) const {
-    const bool inside = u >= 0 && v >= 0 && u < field_.cols && v < field_.rows;
-    return inside ? field_.ptr<float>(v)[u * kChannels + channel] : 0.0F;
+    const bool inside = u >= 0 && v >= 0 && u < field_.width() && v < field_.height();
+    return inside ? field_.at(v, u)[channel] : 0.0F;
   }
 
-  const cv::Mat& field_;
+  const Channels& field_;
 };
 
 }  // namespace flowdlo::field

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <opencv2/core.hpp>
 
 #include "field/strand_field.hpp"
 
@@ -35,7 +34,7 @@ class FieldView {
     return scale_.cwiseProduct(p) + origin_;
   }
 
-  cv::Mat channels_;                    // [height, width, kChannels] of the region; or empty
+  Channels channels_;                   // of the region; or empty
   Eigen::Vector2f scale_{1.0F, 1.0F};   // pixels of the region a pixel of the frame
   Eigen::Vector2f origin_{0.0F, 0.0F};  // where the frame's (0, 0) is in the region
 };

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <opencv2/imgproc.hpp>
 #include <string_view>
 #include <system_error>
 
@@ -27,6 +26,8 @@ namespace {
 namespace fs = std::filesystem;
 using frame::CameraFile;
 using frame::Faults;
+using frame::PngFormat;
+using frame::PngImage;
 
 constexpr std::size_t kMaxImageBytes = std::size_t{1} << 28;
 constexpr std::size_t kMaxTextBytes = std::size_t{1} << 20;
@@ -34,10 +35,10 @@ constexpr std::size_t kMaxTextBytes = std::size_t{1} << 20;
 /// What the files say, before they are held against each other. Empty images: absent or faulty.
 struct Files {
   CameraFile camera;
-  cv::Mat depth;      // CV_16UC1
-  cv::Mat mask;       // CV_8UC1
-  cv::Mat color;      // CV_8UC3
-  cv::Mat instances;  // CV_16UC1
+  PngImage depth;      // 16 bits
+  PngImage mask;       // 8 bits
+  PngImage color;      // 8 bits, 3 channels
+  PngImage instances;  // 16 bits
 };
 
 bool is_there(const fs::path& file) {
@@ -45,9 +46,10 @@ bool is_there(const fs::path& file) {
   return fs::symlink_status(file, ignored).type() != fs::file_type::not_found;
 }
 
-std::string described(const cv::Mat& image) {
-  return fmt::format("{}-bit, {} channel{}", image.depth() == CV_16U ? 16 : 8, image.channels(),
-                     image.channels() == 1 ? "" : "s");
+std::string described(const PngImage& image) {
+  const int channels = image.format().channels;
+  return fmt::format("{}-bit, {} channel{}", image.format().bits, channels,
+                     channels == 1 ? "" : "s");
 }
 
 /// One of the folder's files, opened beside the others.
@@ -79,7 +81,7 @@ std::optional<files::FileBytes> content(const Source& source, std::size_t max_by
   return std::nullopt;
 }
 
-cv::Mat load_png(const Source& source, Faults& faults) {
+PngImage load_png(const Source& source, Faults& faults) {
   const auto bytes = content(source, kMaxImageBytes, faults);
   if (!bytes) return {};
   auto image = frame::decode_png(bytes->view(), source.who);
@@ -101,9 +103,10 @@ CameraFile load_camera(const Source& source, Faults& faults) {
   return *camera;
 }
 
-cv::Mat load_depth(const Source& source, Faults& faults) {
-  cv::Mat depth = load_png(source, faults);
-  if (depth.empty() || depth.type() == CV_16UC1) return depth;
+PngImage load_depth(const Source& source, Faults& faults) {
+  PngImage depth = load_png(source, faults);
+  const bool good = depth.format().bits == 16 && depth.format().channels == 1;
+  if (depth.empty() || good) return depth;
   faults.bad_input(
       fmt::format("{}: expected a 16-bit image of 1 channel, got {}; write the depth "
                   "as 16-bit units of camera.json's depth_scale",
@@ -112,28 +115,28 @@ cv::Mat load_depth(const Source& source, Faults& faults) {
 }
 
 // The largest channel, not the luminance: a mask painted pure blue is a mask all the same.
-cv::Mat largest_channel(const cv::Mat& image) {
-  std::vector<cv::Mat> channels;
-  cv::split(image, channels);
-  cv::Mat largest = channels[0];
-  for (std::size_t c = 1; c < std::min<std::size_t>(channels.size(), 3); ++c) {
-    cv::max(largest, channels[c], largest);
+PngImage largest_channel(const PngImage& image) {
+  const auto channels = static_cast<std::size_t>(image.format().channels);
+  PngImage largest({image.format().width, image.format().height});
+  const std::uint8_t* from = image.values<std::uint8_t>().data();
+  for (std::uint8_t& value : largest.values<std::uint8_t>()) {
+    value = *std::max_element(from, from + std::min<std::size_t>(channels, 3));
+    from += channels;
   }
   return largest;
 }
 
-cv::Mat load_mask(const Source& source, Faults& faults) {
-  cv::Mat mask = load_png(source, faults);
+PngImage load_mask(const Source& source, Faults& faults) {
+  PngImage mask = load_png(source, faults);
   if (mask.empty()) return {};
-  if (mask.depth() != CV_8U) {
+  if (mask.format().bits != 8) {
     faults.bad_input(fmt::format("{}: expected an 8-bit image, got {}; write the rope as 255",
                                  source.who, described(mask)));
     return {};
   }
-  if (mask.channels() != 1) mask = largest_channel(mask);
-  double largest = 0;
-  cv::minMaxLoc(mask, nullptr, &largest);
-  if (largest == 1) {
+  if (mask.format().channels != 1) mask = largest_channel(mask);
+  const auto values = std::as_const(mask).values<std::uint8_t>();
+  if (*std::max_element(values.begin(), values.end()) == 1) {
     faults.bad_input(source.who +
                      ": expected the rope over 127, got values of 0 and 1; multiply by 255");
     return {};
@@ -141,41 +144,55 @@ cv::Mat load_mask(const Source& source, Faults& faults) {
   return mask;
 }
 
-cv::Mat load_color(const Source& source, Faults& faults) {
+// Blue, green and red of what has one channel or four.
+PngImage three_channels(const PngImage& image) {
+  const auto channels = static_cast<std::size_t>(image.format().channels);
+  PngImage bgr({image.format().width, image.format().height, 3});
+  const std::uint8_t* from = image.values<std::uint8_t>().data();
+  std::uint8_t* to = bgr.values<std::uint8_t>().data();
+  for (std::size_t i = 0; i < bgr.format().values() / 3; ++i, from += channels) {
+    for (std::size_t c = 0; c < 3; ++c) *to++ = from[channels == 1 ? 0 : c];
+  }
+  return bgr;
+}
+
+PngImage load_color(const Source& source, Faults& faults) {
   if (!source.is_there()) return {};  // no estimate needs it
-  cv::Mat color = load_png(source, faults);
+  PngImage color = load_png(source, faults);
   if (color.empty()) return {};
-  if (color.depth() != CV_8U) {
+  if (color.format().bits != 8) {
     faults.bad_input(fmt::format("{}: expected an 8-bit image, got {}; convert it to 8-bit BGR",
                                  source.who, described(color)));
     return {};
   }
-  cv::Mat bgr;
-  if (color.channels() == 3) return color;
-  cv::cvtColor(color, bgr, color.channels() == 4 ? cv::COLOR_BGRA2BGR : cv::COLOR_GRAY2BGR);
-  return bgr;
+  return color.format().channels == 3 ? color : three_channels(color);
 }
 
-cv::Mat load_instances(const Source& source, Faults& faults) {
+PngImage load_instances(const Source& source, Faults& faults) {
   if (!source.is_there()) return {};  // the mask may be one rope, or nobody knows which is which
-  cv::Mat labels = load_png(source, faults);
+  PngImage labels = load_png(source, faults);
   if (labels.empty()) return {};
-  if (labels.channels() != 1) {
+  if (labels.format().channels != 1) {
     faults.bad_input(
         fmt::format("{}: expected one channel of 8 or 16 bits, got {}; write each rope's number, 0 "
                     "where there is none",
                     source.who, described(labels)));
     return {};
   }
-  labels.convertTo(labels, CV_16U);
-  return labels;
+  if (labels.format().bits == 16) return labels;
+  PngImage wide({labels.format().width, labels.format().height, 1, 16});
+  const auto narrow = std::as_const(labels).values<std::uint8_t>();
+  std::copy(narrow.begin(), narrow.end(), wide.values<std::uint16_t>().begin());
+  return wide;
 }
 
-void check_size(const fs::path& file, const cv::Mat& image, const char* other, int width,
+void check_size(const fs::path& file, const PngImage& image, const char* other, int width,
                 int height, Faults& faults) {
-  if (image.empty() || (image.cols == width && image.rows == height)) return;
+  const PngFormat& format = image.format();
+  if (image.empty() || (format.width == width && format.height == height)) return;
   faults.bad_input(fmt::format("{}: expected {} x {} px as in {}, got {} x {}; align the images",
-                               files::shown(file), width, height, other, image.cols, image.rows));
+                               files::shown(file), width, height, other, format.width,
+                               format.height));
 }
 
 void check_sizes(const fs::path& folder, Files& files, Faults& faults) {
@@ -184,8 +201,9 @@ void check_sizes(const fs::path& folder, Files& files, Faults& faults) {
   if (camera.width == 0 || camera.height == 0) {
     const bool from_depth = !depth.empty();
     reference = from_depth ? "depth.png" : "mask.png";
-    camera.width = from_depth ? depth.cols : mask.cols;
-    camera.height = from_depth ? depth.rows : mask.rows;
+    const PngFormat& format = (from_depth ? depth : mask).format();
+    camera.width = format.width;
+    camera.height = format.height;
   }
   if (camera.width == 0) return;  // no image could be read, which is a fault already
   check_size(folder / "depth.png", depth, reference, camera.width, camera.height, faults);
@@ -204,23 +222,17 @@ std::optional<Centerline> load_truth(const Source& source, Faults& faults) {
   return std::nullopt;
 }
 
-std::vector<std::uint8_t> bytes_of(const cv::Mat& image) {
-  if (image.empty()) return {};
-  const cv::Mat packed = image.isContinuous() ? image : image.clone();
-  return {packed.datastart, packed.datastart + packed.total() * packed.elemSize()};
+template <class Value>
+std::vector<Value> values_of(const PngImage& image) {
+  const auto values = image.values<Value>();
+  return {values.begin(), values.end()};
 }
 
-std::vector<std::uint16_t> labels_of(const cv::Mat& instances) {
-  if (instances.empty()) return {};
-  return {instances.begin<std::uint16_t>(), instances.end<std::uint16_t>()};
-}
-
-std::vector<float> metres_of(const cv::Mat& depth, double scale_m) {
+std::vector<float> metres_of(const PngImage& depth, double scale_m) {
   std::vector<float> depth_m;
-  depth_m.reserve(depth.total());
-  for (int v = 0; v < depth.rows; ++v) {
-    const auto* row = depth.ptr<std::uint16_t>(v);
-    for (int u = 0; u < depth.cols; ++u) depth_m.push_back(geometry::metres(row[u], scale_m));
+  depth_m.reserve(depth.format().values());
+  for (const std::uint16_t unit : depth.values<std::uint16_t>()) {
+    depth_m.push_back(geometry::metres(unit, scale_m));
   }
   return depth_m;
 }
@@ -258,10 +270,10 @@ Result<FrameFolder> frame::load_folder(const fs::path& folder, const files::Syst
                      files.camera.height,
                      files.camera.intrinsics,
                      metres_of(files.depth, files.camera.depth_scale_m),
-                     bytes_of(files.mask),
-                     bytes_of(files.color),
+                     values_of<std::uint8_t>(files.mask),
+                     values_of<std::uint8_t>(files.color),
                      truth,
-                     labels_of(files.instances)};
+                     values_of<std::uint16_t>(files.instances)};
   if (mask == MaskFile::kNotRead) loaded.mask.assign(loaded.depth_m.size(), 0);
   if (const auto valid = validate(loaded.frame()); !valid) return valid.error();
   return loaded;

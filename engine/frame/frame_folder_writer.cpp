@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
 
 #include "files/folder_update.hpp"
 #include "flowdlo/frame_folder.hpp"
@@ -19,17 +22,14 @@ namespace {
 namespace fs = std::filesystem;
 
 // To the nearest unit; 0 where there is no depth.
-Result<cv::Mat> units_of(const Frame& frame, double scale_m) {
-  cv::Mat units(frame.height, frame.width, CV_16UC1);
+Result<std::vector<std::uint16_t>> units_of(const Frame& frame, double scale_m) {
+  std::vector<std::uint16_t> units;
+  units.reserve(frame.depth_m.size());
   std::size_t too_far = 0;
-  for (int v = 0; v < frame.height; ++v) {
-    auto* row = units.ptr<std::uint16_t>(v);
-    for (int u = 0; u < frame.width; ++u) {
-      const float z_m = frame.depth_m[static_cast<std::size_t>(v) * frame.width + u];
-      const double unit = std::isfinite(z_m) && z_m > 0 ? std::round(z_m / scale_m) : 0;
-      if (unit > frame::kMaxDepthUnit) ++too_far;
-      row[u] = static_cast<std::uint16_t>(std::min<double>(unit, frame::kMaxDepthUnit));
-    }
+  for (const float z_m : frame.depth_m) {
+    const double unit = std::isfinite(z_m) && z_m > 0 ? std::round(z_m / scale_m) : 0;
+    if (unit > frame::kMaxDepthUnit) ++too_far;
+    units.push_back(static_cast<std::uint16_t>(std::min<double>(unit, frame::kMaxDepthUnit)));
   }
   if (too_far == 0) return units;
   return Error{
@@ -39,35 +39,32 @@ Result<cv::Mat> units_of(const Frame& frame, double scale_m) {
                   frame::kMaxDepthUnit * scale_m, frame::kMaxDepthUnit, scale_m, too_far)};
 }
 
-Result<void> put_png(files::FolderUpdate& update, const char* name, const cv::Mat& image) {
-  const auto bytes = frame::encode_png(image);
+template <class Value>
+Result<void> put_png(files::FolderUpdate& update, const char* name, const Frame& frame,
+                     std::span<const Value> values, int channels = 1) {
+  const auto stride = static_cast<std::size_t>(frame.width) * channels * sizeof(Value);
+  const auto bytes =
+      frame::encode_png({frame.width, frame.height, channels, 8 * static_cast<int>(sizeof(Value))},
+                        values.data(), stride);
   if (!bytes) return bytes.error();
   return update.put(name, *bytes);
 }
 
-template <class Pixel>
-cv::Mat mat_over(std::span<const Pixel> pixels, const Frame& frame, int type) {
-  // OpenCV has no view of constant pixels; the callers only read.
-  return {frame.height, frame.width, type, const_cast<Pixel*>(pixels.data())};
-}
-
 // A frame must not keep the colour, the labels or the truth of the one that stood here before.
 Result<void> put_all(files::FolderUpdate& update, const Frame& frame, double depth_scale_m,
-                     const Centerline* truth, const cv::Mat& units) {
-  if (auto done = put_png(update, "depth.png", units); !done) return done;
-  const auto mask = mat_over(frame.mask, frame, CV_8UC1);
-  if (auto done = put_png(update, "mask.png", mask); !done) return done;
+                     const Centerline* truth, std::span<const std::uint16_t> units) {
+  if (auto done = put_png(update, "depth.png", frame, units); !done) return done;
+  if (auto done = put_png(update, "mask.png", frame, frame.mask); !done) return done;
   if (frame.color_bgr.empty()) {
     update.remove("color.png");
   } else {
-    const auto color = mat_over(frame.color_bgr, frame, CV_8UC3);
-    if (auto done = put_png(update, "color.png", color); !done) return done;
+    if (auto done = put_png(update, "color.png", frame, frame.color_bgr, 3); !done) return done;
   }
   if (frame.instances.empty()) {
     update.remove("instances.png");
   } else {
-    const auto instances = mat_over(frame.instances, frame, CV_16UC1);
-    if (auto done = put_png(update, "instances.png", instances); !done) return done;
+    auto done = put_png(update, "instances.png", frame, frame.instances);
+    if (!done) return done;
   }
   if (truth == nullptr) {
     update.remove("truth.csv");

@@ -134,9 +134,9 @@ class Decoder {
     return true;
   }
 
-  [[nodiscard]] int type() const {
-    const int depth = png_get_bit_depth(png_, info_) == 16 ? CV_16U : CV_8U;
-    return CV_MAKETYPE(depth, png_get_channels(png_, info_));
+  [[nodiscard]] PngFormat format(const Size& size) const {
+    return {static_cast<int>(size.width), static_cast<int>(size.height),
+            png_get_channels(png_, info_), png_get_bit_depth(png_, info_) == 16 ? 16 : 8};
   }
 
   [[nodiscard]] bool read_pixels(png_bytepp rows) {
@@ -215,16 +215,19 @@ class Encoder {
   png_infop info_;
 };
 
-std::vector<png_bytep> rows_of(const cv::Mat& image) {
+std::vector<png_bytep> rows_of(png_bytep first, int count, std::size_t stride_bytes) {
   std::vector<png_bytep> rows;
-  for (int v = 0; v < image.rows; ++v) rows.push_back(const_cast<png_bytep>(image.ptr(v)));
+  for (int v = 0; v < count; ++v) {
+    rows.push_back(first + static_cast<std::size_t>(v) * stride_bytes);
+  }
   return rows;
 }
 
-/// What PNG calls the channels of `image`; none where it has no such kind.
-std::optional<int> color_type_of(const cv::Mat& image) {
-  if (image.empty() || (image.depth() != CV_8U && image.depth() != CV_16U)) return std::nullopt;
-  switch (image.channels()) {
+/// What PNG calls the channels of an image; none where it has no such kind.
+std::optional<int> color_type_of(const PngFormat& format) {
+  if (format.width < 1 || format.height < 1) return std::nullopt;
+  if (format.bits != 8 && format.bits != 16) return std::nullopt;
+  switch (format.channels) {
     case 1:
       return PNG_COLOR_TYPE_GRAY;
     case 3:
@@ -238,7 +241,7 @@ std::optional<int> color_type_of(const cv::Mat& image) {
 
 }  // namespace
 
-Result<cv::Mat> decode_png(Bytes bytes, const std::string& who) {
+Result<PngImage> decode_png(Bytes bytes, const std::string& who) {
   Size size;
   const auto fault = damage(bytes, size);
   if (!fault.empty()) return Error{ErrorCode::kBadInput, who + ": " + fault + "; write it again"};
@@ -249,26 +252,30 @@ Result<cv::Mat> decode_png(Bytes bytes, const std::string& who) {
   }
   Decoder decoder(bytes);
   if (decoder.read_header()) {
-    cv::Mat image(static_cast<int>(size.height), static_cast<int>(size.width), decoder.type());
-    auto rows = rows_of(image);
+    PngImage image(decoder.format(size));
+    const auto values = image.values<png_byte>();
+    const std::size_t bytes_a_row = values.size() / size.height * image.format().bits / 8;
+    auto rows = rows_of(values.data(), image.format().height, bytes_a_row);
     if (decoder.read_pixels(rows.data())) return image;
   }
   if (decoder.lacked_memory()) return no_memory(who);
   return Error{ErrorCode::kBadInput, who + ": the PNG is damaged; write it again"};
 }
 
-Result<std::vector<std::uint8_t>> encode_png(const cv::Mat& image) {
-  const auto color_type = color_type_of(image);
-  if (!color_type) {
+Result<std::vector<std::uint8_t>> encode_png(const PngFormat& format, const void* first,
+                                             std::size_t stride_bytes) {
+  const auto color_type = color_type_of(format);
+  if (!color_type || first == nullptr) {
     return Error{ErrorCode::kInternal,
                  "encode_png: expected 8 or 16 bits and 1, 3 or 4 channels, got another image"};
   }
   std::vector<std::uint8_t> bytes;
-  auto rows = rows_of(image);
+  // libpng takes rows that it could change, and only reads them.
+  auto* const pixels = const_cast<png_bytep>(static_cast<png_const_bytep>(first));
+  auto rows = rows_of(pixels, format.height, stride_bytes);
   Encoder encoder(bytes);
-  const int bits = image.depth() == CV_16U ? 16 : 8;
-  if (encoder.write(static_cast<png_uint_32>(image.cols), static_cast<png_uint_32>(image.rows),
-                    bits, *color_type, rows.data())) {
+  if (encoder.write(static_cast<png_uint_32>(format.width), static_cast<png_uint_32>(format.height),
+                    format.bits, *color_type, rows.data())) {
     return bytes;
   }
   if (encoder.lacked_memory()) return no_memory("encode_png");

@@ -2,7 +2,6 @@
 
 #include <exception>
 #include <new>
-#include <opencv2/core.hpp>
 #include <string>
 
 namespace flowdlo::guard {
@@ -35,8 +34,6 @@ Error caught(const char* who) noexcept {
     throw;
   } catch (const std::bad_alloc&) {
     return out_of_memory(who);
-  } catch (const cv::Exception& thrown) {
-    return thrown.code == cv::Error::StsNoMem ? out_of_memory(who) : unexpected(who, thrown);
   } catch (const std::exception& thrown) {
     return unexpected(who, thrown);
   }

@@ -4,11 +4,11 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <opencv2/imgproc.hpp>
 #include <set>
 #include <utility>
 
 #include "geometry/pixel.hpp"
+#include "image/components.hpp"
 #include "path/cover.hpp"
 #include "path/gap_curve.hpp"
 #include "path/midline.hpp"
@@ -19,9 +19,9 @@ namespace {
 using Eigen::Vector2f;
 using Points = std::vector<Vector2f>;
 
-constexpr float kRunOutWidths = 0.2F;   // past the middle of a strand that hides the end
-constexpr float kBulgeLeast = 0.85F;    // the mask reaches this far past it where a tip shows,
-constexpr float kBulgeMost = 1.6F;      // and further where the end runs along that strand
+constexpr float kRunOutWidths = 0.2F;  // past the middle of a strand that hides the end
+constexpr float kBulgeLeast = 0.85F;   // the mask reaches this far past it where a tip shows,
+constexpr float kBulgeMost = 1.6F;     // and further where the end runs along that strand
 constexpr float kShortestAxisPx = 4.0F;
 
 struct Drawn {
@@ -50,7 +50,7 @@ Points cubic(const StrandEnd& from, const StrandEnd& to) {
   return points;
 }
 
-bool inside(const Points& points, const cv::Mat& mask) {
+bool inside(const Points& points, const image::Mask& mask) {
   return std::all_of(points.begin(), points.end(), [&](const Vector2f& p) { return lit(mask, p); });
 }
 
@@ -87,8 +87,8 @@ std::vector<int> bridges_between(const Strands& strands, int from, int to) {
 
 // The skeleton's way through a crossing. Where the mask is wider than the rope the strands lie
 // side by side: each keeps to its side, and changes over where it leaves on the other.
-Points along_bridges(const Strands& strands, const cv::Mat& distance, const std::vector<int>& way,
-                     const StrandEnd& from, const StrandEnd& to) {
+Points along_bridges(const Strands& strands, const image::Image<float>& distance,
+                     const std::vector<int>& way, const StrandEnd& from, const StrandEnd& to) {
   Points middle;
   for (const int end : way) {
     Points points = strands.bridges[end / 2].points_px;
@@ -109,7 +109,7 @@ Points along_bridges(const Strands& strands, const cv::Mat& distance, const std:
     const float t = static_cast<float>(i) / static_cast<float>(count);
     const auto u = geometry::nearest_px(middle[i].x());
     const auto v = geometry::nearest_px(middle[i].y());
-    const float wide = width_at(distance.at<float>(v, u)) - strands.width_px;
+    const float wide = width_at(distance.at(v, u)) - strands.width_px;
     const float aside = 0.5F * std::clamp(wide, 0.0F, strands.width_px);
     points.push_back(middle[i] + ((1 - t) * enters + t * leaves) * aside * normal(i));
   }
@@ -138,7 +138,7 @@ void draw_bond(const Strands& strands, const Region& region, const Cover& cover,
 
 // An end at a crossing touches the other strand, or lies on it, or hardly shows behind it. Straight
 // on to that strand's middle is never far off; where the mask bulges beyond, the tip shows.
-Points run_out(const StrandEnd& end, const cv::Mat& mask, float width_px) {
+Points run_out(const StrandEnd& end, const image::Mask& mask, float width_px) {
   Points points;
   const float to_middle = (end.node_px - end.point_px).norm();
   const auto most = static_cast<int>(to_middle + kBulgeMost * width_px);
@@ -241,26 +241,52 @@ Path assemble(const Traversal& traversal, const Strands& strands, const Region& 
   return path;
 }
 
+// Of the pixels with that label: their middle, and the direction in which they spread most.
+std::pair<Vector2f, Vector2f> middle_and_axis(const image::Image<int>& labels, int label) {
+  std::int64_t count = 0;
+  std::int64_t x = 0;
+  std::int64_t y = 0;
+  std::int64_t xx = 0;
+  std::int64_t xy = 0;
+  std::int64_t yy = 0;
+  for (int v = 0; v < labels.height(); ++v) {
+    for (int u = 0; u < labels.width(); ++u) {
+      if (labels.at(v, u) != label) continue;
+      ++count;
+      x += u;
+      y += v;
+      xx += std::int64_t{u} * u;
+      xy += std::int64_t{u} * v;
+      yy += std::int64_t{v} * v;
+    }
+  }
+  const auto number = [](std::int64_t value) { return static_cast<double>(value); };
+  const double middle_x = number(x) / number(count);
+  const double middle_y = number(y) / number(count);
+  const double spread_xy = number(xy) - number(x) * middle_y;
+  const double spread_xx = number(xx) - number(x) * middle_x;
+  const double spread_yy = number(yy) - number(y) * middle_y;
+  const double tilt = 0.5 * std::atan2(2 * spread_xy, spread_xx - spread_yy);
+  return {{static_cast<float>(middle_x), static_cast<float>(middle_y)},
+          {static_cast<float>(std::cos(tilt)), static_cast<float>(std::sin(tilt))}};
+}
+
 Path long_axis(const Region& region, const Frame& frame) {
-  cv::Mat labels;
-  cv::Mat stats;
-  cv::Mat centroids;
-  const int count = cv::connectedComponentsWithStats(region.mask, labels, stats, centroids, 8);
+  const auto [labels, pieces] = image::components(region.mask, image::Neighbours::kEight);
   int largest = 0;
-  for (int i = 1; i < count; ++i) {
-    const int area = stats.at<int>(i, cv::CC_STAT_AREA);
-    if (largest == 0 || area > stats.at<int>(largest, cv::CC_STAT_AREA)) largest = i;
+  int most = 0;
+  for (std::size_t i = 1; i < pieces.size(); ++i) {
+    if (pieces[i].area <= most) continue;
+    largest = static_cast<int>(i);
+    most = pieces[i].area;
   }
   if (largest == 0) return {};
-  const cv::Moments m = cv::moments(labels == largest, true);
-  const double tilt = 0.5 * std::atan2(2 * m.mu11, m.mu20 - m.mu02);
-  const Vector2f axis{static_cast<float>(std::cos(tilt)), static_cast<float>(std::sin(tilt))};
-  const Vector2f middle{static_cast<float>(m.m10 / m.m00), static_cast<float>(m.m01 / m.m00)};
+  const auto [middle, axis] = middle_and_axis(labels, largest);
   float low = std::numeric_limits<float>::max();
   float high = std::numeric_limits<float>::lowest();
-  for (int v = 0; v < labels.rows; ++v) {
-    for (int u = 0; u < labels.cols; ++u) {
-      if (labels.at<int>(v, u) != largest) continue;
+  for (int v = 0; v < labels.height(); ++v) {
+    for (int u = 0; u < labels.width(); ++u) {
+      if (labels.at(v, u) != largest) continue;
       const float along = axis.dot(Vector2f(static_cast<float>(u), static_cast<float>(v)) - middle);
       low = std::min(low, along);
       high = std::max(high, along);

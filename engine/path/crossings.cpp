@@ -43,18 +43,18 @@ bool stem(const Graph& graph, int end, float reach_px, float most_cosine) {
   return true;
 }
 
-float width_of(const Segment& segment, const cv::Mat& distance) {
+float width_of(const Segment& segment, const image::Image<float>& distance) {
   std::vector<float> values;
   for (const Vector2f& p : segment.points_px) {
     values.push_back(
-        width_at(distance.at<float>(geometry::nearest_px(p.y()), geometry::nearest_px(p.x()))));
+        width_at(distance.at(geometry::nearest_px(p.y()), geometry::nearest_px(p.x()))));
   }
   if (values.empty()) return 0;
   return geometry::median_of(values);
 }
 
 // True for a knot of junctions, and where two strands lie on or beside each other.
-bool shared(const Graph& graph, int id, const cv::Mat& distance, float scale_px) {
+bool shared(const Graph& graph, int id, const image::Image<float>& distance, float scale_px) {
   const Segment& segment = graph.segments[id];
   if (!segment.alive || segment.ring() || segment.node[0] == segment.node[1]) return false;
   if (graph.nodes[segment.node[0]].ends.size() < 3) return false;
@@ -71,7 +71,7 @@ bool shared(const Graph& graph, int id, const cv::Mat& distance, float scale_px)
 
 }  // namespace
 
-Crossings::Crossings(const Graph& graph, const cv::Mat& distance_px, float scale_px)
+Crossings::Crossings(const Graph& graph, const image::Image<float>& distance_px, float scale_px)
     : crossing_(graph.nodes.size()), inner_(graph.segments.size(), false) {
   std::iota(crossing_.begin(), crossing_.end(), 0);
   const auto root = [&](int node) {

@@ -11,7 +11,7 @@ namespace flowdlo::path {
 /// than the rope is wide.
 class Crossings {
  public:
-  Crossings(const Graph& graph, const cv::Mat& distance_px, float scale_px);
+  Crossings(const Graph& graph, const image::Image<float>& distance_px, float scale_px);
 
   /// The crossing that the node belongs to.
   [[nodiscard]] int of(int node) const { return crossing_[node]; }

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <opencv2/core.hpp>
 #include <vector>
 
 #include "path/graph.hpp"
@@ -13,7 +12,7 @@ namespace flowdlo::path {
 /// Borrows the graph and the mask it is of. `width_px` is one strand's where the rope usually is.
 class CutEnds {
  public:
-  CutEnds(const Graph& graph, const cv::Mat& mask, float width_px)
+  CutEnds(const Graph& graph, const image::Mask& mask, float width_px)
       : graph_(graph), mask_(mask), size_px_(width_px) {}
 
   /// Ends the cut `points` at its back, near side `side` of `segment`, where the strands part: at
@@ -47,7 +46,7 @@ class CutEnds {
                            float width_px) const;
 
   const Graph& graph_;
-  const cv::Mat& mask_;
+  const image::Mask& mask_;
   float size_px_;
 };
 

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <opencv2/core.hpp>
 #include <utility>
 #include <vector>
 
@@ -41,7 +40,7 @@ constexpr std::size_t kFewestStations = 4;
 
 class Cutter {
  public:
-  Cutter(const Graph& graph, const cv::Mat& mask, float width_px)
+  Cutter(const Graph& graph, const image::Mask& mask, float width_px)
       : graph_(graph),
         mask_(mask),
         size_px_(width_px),
@@ -188,7 +187,7 @@ class Cutter {
   }
 
   const Graph& graph_;
-  const cv::Mat& mask_;
+  const image::Mask& mask_;
   float size_px_;
   float narrowest_px_;
   float least_ = 0;  // widths: nothing narrower is cut

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <opencv2/imgproc.hpp>
 
 #include "guard/guarded.hpp"
+#include "image/brush.hpp"
+#include "image/distance.hpp"
+#include "image/masks.hpp"
 #include "path/region.hpp"
 #include "path/window.hpp"
 
@@ -19,28 +21,20 @@ constexpr float kLeastWidthPx = 1.0F;
 
 // `mask` without what lies within `radius_px` of an empty pixel. A large disc is a distance:
 // brushes cost as much as they have pixels.
-cv::Mat shrunk(const cv::Mat& mask, int radius_px) {
-  cv::Mat result;
-  if (radius_px <= kMostBrushPx) {
-    const cv::Size size(2 * radius_px + 1, 2 * radius_px + 1);
-    cv::erode(mask, result, cv::getStructuringElement(cv::MORPH_ELLIPSE, size));
-    return result;
-  }
-  cv::distanceTransform(mask, result, cv::DIST_L2, 5);
-  return result > static_cast<float>(radius_px);
+image::Mask shrunk(const image::Mask& mask, int radius_px) {
+  if (radius_px <= kMostBrushPx) return image::eroded_by_disc(mask, radius_px);
+  return image::above(image::distance_to_empty(mask), static_cast<float>(radius_px), 255);
 }
 
 Result<Traversals> trace_without_border(const Frame& frame, float rope_width_px,
                                         const TraceConfig& config) {
-  const cv::Rect box = bounding_box(frame);
+  const image::Rect box = bounding_box(frame);
   const int around_px = kAroundPx + kAroundWidths * static_cast<int>(std::lround(rope_width_px));
   const Window window{widened(box, around_px, {frame.width, frame.height}), 1};
   const int radius_px = std::max(1, static_cast<int>(std::lround(kShare * rope_width_px)));
-  cv::Mat mask = mask_in(frame, window.part);
-  cv::threshold(mask, mask, 127, 255, cv::THRESH_BINARY);
-  mask = shrunk(mask, radius_px);
-  const cv::Mat depth_m = depth_in(frame, window.part);
-  const cv::Mat instances = instances_in(frame, window.part);
+  const image::Mask mask = shrunk(image::above(mask_in(frame, window.part), 127, 255), radius_px);
+  const auto depth_m = depth_in(frame, window.part);
+  const auto instances = instances_in(frame, window.part);
   auto result = trace(frame_of(mask, depth_m, instances, window.camera(frame.intrinsics)), config);
   if (!result) return result;
   window.restore(*result, {frame.width, frame.height});

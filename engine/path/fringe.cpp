@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <opencv2/imgproc.hpp>
 #include <vector>
+
+#include "image/components.hpp"
+#include "image/distance.hpp"
 
 namespace flowdlo::path {
 namespace {
@@ -18,13 +20,13 @@ constexpr int kManySlivers = 4;       // beside so many, crumbs as thick as the 
 constexpr float kBesideShare = 0.8F;  // of a sliver's pixels that lie that near
 
 // Empty pixels between two of the mask: what a dark line is made of.
-int count_dark(const cv::Mat& mask) {
+int count_dark(const image::Mask& mask) {
   int dark = 0;
-  for (int v = 1; v + 1 < mask.rows; ++v) {
-    const std::uint8_t* up = mask.ptr<std::uint8_t>(v - 1);
-    const std::uint8_t* row = mask.ptr<std::uint8_t>(v);
-    const std::uint8_t* down = mask.ptr<std::uint8_t>(v + 1);
-    for (int u = 1; u + 1 < mask.cols; ++u) {
+  for (int v = 1; v + 1 < mask.height(); ++v) {
+    const std::uint8_t* up = mask.row(v - 1);
+    const std::uint8_t* row = mask.row(v);
+    const std::uint8_t* down = mask.row(v + 1);
+    for (int u = 1; u + 1 < mask.width(); ++u) {
       dark += (row[u] ^ 1) & ((row[u - 1] & row[u + 1]) | (up[u] & down[u]));
     }
   }
@@ -32,14 +34,14 @@ int count_dark(const cv::Mat& mask) {
 }
 
 // Half the thickness that half of the mask's area has at least.
-float usual_half_px(const cv::Mat& distance) {
+float usual_half_px(const image::Image<float>& distance) {
   std::vector<float> ridge;
   double area = 0;
-  for (int v = 1; v + 1 < distance.rows; ++v) {
-    const float* up = distance.ptr<float>(v - 1);
-    const float* row = distance.ptr<float>(v);
-    const float* down = distance.ptr<float>(v + 1);
-    for (int u = 1; u + 1 < distance.cols; ++u) {
+  for (int v = 1; v + 1 < distance.height(); ++v) {
+    const float* up = distance.row(v - 1);
+    const float* row = distance.row(v);
+    const float* down = distance.row(v + 1);
+    for (int u = 1; u + 1 < distance.width(); ++u) {
       const float d = row[u];
       if (d <= 0 || d < row[u - 1] || d < row[u + 1] || d < up[u] || d < down[u]) continue;
       ridge.push_back(d);
@@ -62,30 +64,31 @@ struct Piece {
 };
 
 // The pieces of the mask, by label; `labels` is 0 where it is empty.
-std::vector<Piece> measure(const cv::Mat& labels, int count, float half_px, cv::Mat& distance) {
+std::vector<Piece> measure(const image::Image<int>& labels, int count, float half_px,
+                           image::Image<float>& distance) {
   std::vector<Piece> pieces(static_cast<std::size_t>(count));
   const auto each = [&](auto visit) {
-    for (int v = 0; v < labels.rows; ++v) {
-      const int* label = labels.ptr<int>(v);
-      for (int u = 0; u < labels.cols; ++u) {
+    for (int v = 0; v < labels.height(); ++v) {
+      const int* label = labels.row(v);
+      for (int u = 0; u < labels.width(); ++u) {
         if (label[u] != 0) visit(pieces[static_cast<std::size_t>(label[u])], v, u);
       }
     }
   };
   each([&](Piece& piece, int v, int u) {
-    piece.half_px = std::max(piece.half_px, distance.at<float>(v, u));
+    piece.half_px = std::max(piece.half_px, distance.at(v, u));
     ++piece.pixels;
   });
-  cv::Mat not_thick(labels.size(), CV_8U, cv::Scalar(1));
+  image::Mask not_thick(labels.size(), 1);
   each([&](const Piece& piece, int v, int u) {
     if (piece.half_px >= kThickShare * half_px &&
         static_cast<float>(piece.pixels) > kSmallArea * half_px * half_px) {
-      not_thick.at<std::uint8_t>(v, u) = 0;
+      not_thick.at(v, u) = 0;
     }
   });
-  cv::distanceTransform(not_thick, distance, cv::DIST_L2, 5);
+  distance = image::distance_to_empty(not_thick);
   each([&](Piece& piece, int v, int u) {
-    piece.beside += distance.at<float>(v, u) <= 2 * piece.half_px + kGapPx ? 1 : 0;
+    piece.beside += distance.at(v, u) <= 2 * piece.half_px + kGapPx ? 1 : 0;
   });
   return pieces;
 }
@@ -109,21 +112,21 @@ std::vector<std::uint8_t> pieces_to_keep(const std::vector<Piece>& pieces, float
 
 }  // namespace
 
-bool erase_fringes(cv::Mat& mask) {
+bool erase_fringes(image::Mask& mask) {
   if (count_dark(mask) < kLeastDark) return false;
-  cv::Mat distance;
-  cv::distanceTransform(mask, distance, cv::DIST_L2, 5);
+  image::Image<float> distance = image::distance_to_empty(mask);
   const float half_px = usual_half_px(distance);
   if (half_px < kLeastHalfPx) return false;
-  cv::Mat labels;
-  const int count = cv::connectedComponents(mask, labels, 4, CV_32S);  // lines may be diagonal
+  // Lines may be diagonal.
+  const auto [labels, found] = image::components(mask, image::Neighbours::kFour);
+  const auto count = static_cast<int>(found.size());
   const std::vector<std::uint8_t> keep =
       pieces_to_keep(measure(labels, count, half_px, distance), half_px);
   if (std::all_of(keep.begin(), keep.end(), [](std::uint8_t k) { return k != 0; })) return false;
-  for (int v = 0; v < mask.rows; ++v) {
-    const int* label = labels.ptr<int>(v);
-    std::uint8_t* row = mask.ptr<std::uint8_t>(v);
-    for (int u = 0; u < mask.cols; ++u) row[u] &= keep[static_cast<std::size_t>(label[u])];
+  for (int v = 0; v < mask.height(); ++v) {
+    const int* label = labels.row(v);
+    std::uint8_t* row = mask.row(v);
+    for (int u = 0; u < mask.width(); ++u) row[u] &= keep[static_cast<std::size_t>(label[u])];
   }
   return true;
 }

@@ -2,7 +2,7 @@
 // them that bleed over a border they have lost.
 #pragma once
 
-#include <opencv2/core.hpp>
+#include "image/image.hpp"
 
 namespace flowdlo::path {
 
@@ -10,6 +10,6 @@ namespace flowdlo::path {
 /// rope and lie alongside a piece as thick as the rope, a pixel or two away; among several of them
 /// also crumbs as thick as the rope. Strands of one rope beside each other are equally thick and
 /// stay, and so do pieces that lead away. Returns whether any went.
-bool erase_fringes(cv::Mat& mask);
+bool erase_fringes(image::Mask& mask);
 
 }  // namespace flowdlo::path

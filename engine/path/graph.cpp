@@ -29,9 +29,9 @@ struct Step {
 constexpr std::array<Step, 8> kAround{
     {{0, -1}, {1, -1}, {1, 0}, {1, 1}, {0, 1}, {-1, 1}, {-1, 0}, {-1, -1}}};
 
-cv::Point operator+(const cv::Point& p, const Step& d) { return {p.x + d.u, p.y + d.v}; }
+image::Point operator+(const image::Point& p, const Step& d) { return {p.x + d.u, p.y + d.v}; }
 
-Vector2f vec(cv::Point p) { return {static_cast<float>(p.x), static_cast<float>(p.y)}; }
+Vector2f vec(image::Point p) { return {static_cast<float>(p.x), static_cast<float>(p.y)}; }
 
 // A ring is cut open where it is leftmost, then topmost.
 void rotate_ring(std::vector<Vector2f>& points) {
@@ -44,57 +44,57 @@ void rotate_ring(std::vector<Vector2f>& points) {
 // Reads pixels into nodes and segments.
 class Tracer {
  public:
-  Tracer(const cv::Mat& thinned, const cv::Mat& distance)
+  Tracer(const image::Mask& thinned, const image::Image<float>& distance)
       : thinned_(thinned),
         distance_(distance),
-        node_of_(thinned.size(), CV_32S, cv::Scalar(-1)),
-        degree_(thinned.size(), CV_8U, cv::Scalar(0)),
-        seen_(thinned.size(), CV_8U, cv::Scalar(0)) {}
+        node_of_(thinned.size(), -1),
+        degree_(thinned.size(), 0),
+        seen_(thinned.size(), 0) {}
 
   Graph run() {
     collect();
-    for (const cv::Point& p : pixels_) {
-      if (degree_.at<std::uint8_t>(p) > 2 && node_of_.at<int>(p) < 0) add_junction(p);
+    for (const image::Point& p : pixels_) {
+      if (degree_.at(p) > 2 && node_of_.at(p) < 0) add_junction(p);
     }
-    for (const cv::Point& p : pixels_) {
-      if (degree_.at<std::uint8_t>(p) == 1) add_tip(p);
+    for (const image::Point& p : pixels_) {
+      if (degree_.at(p) == 1) add_tip(p);
     }
-    for (const cv::Point& p : pixels_) start_chains(p);
-    for (const cv::Point& p : pixels_) {
-      if (degree_.at<std::uint8_t>(p) == 2 && seen_.at<std::uint8_t>(p) == 0) add_ring(p);
+    for (const image::Point& p : pixels_) start_chains(p);
+    for (const image::Point& p : pixels_) {
+      if (degree_.at(p) == 2 && seen_.at(p) == 0) add_ring(p);
     }
     return std::move(graph_);
   }
 
  private:
   void collect() {
-    for (int v = 1; v + 1 < thinned_.rows; ++v) {
-      const std::uint8_t* row = thinned_.ptr<std::uint8_t>(v);
-      for (int u = 1; u + 1 < thinned_.cols; ++u) {
+    for (int v = 1; v + 1 < thinned_.height(); ++v) {
+      const std::uint8_t* row = thinned_.row(v);
+      for (int u = 1; u + 1 < thinned_.width(); ++u) {
         if (row[u] == 0) continue;
-        const cv::Point p{u, v};
+        const image::Point p{u, v};
         int degree = 0;
-        for (const Step& d : kAround) degree += thinned_.at<std::uint8_t>(p + d);
-        degree_.at<std::uint8_t>(p) = static_cast<std::uint8_t>(degree);
+        for (const Step& d : kAround) degree += thinned_.at(p + d);
+        degree_.at(p) = static_cast<std::uint8_t>(degree);
         pixels_.push_back(p);
       }
     }
   }
 
-  void add_junction(cv::Point seed) {
+  void add_junction(image::Point seed) {
     const auto id = static_cast<int>(graph_.nodes.size());
     Node node;
-    std::vector<cv::Point> members{seed};
-    node_of_.at<int>(seed) = id;
+    std::vector<image::Point> members{seed};
+    node_of_.at(seed) = id;
     Vector2f sum{0, 0};
     for (std::size_t i = 0; i < members.size(); ++i) {
-      const cv::Point p = members[i];
+      const image::Point p = members[i];
       sum += vec(p);
-      node.distance_px = std::max(node.distance_px, distance_.at<float>(p));
+      node.distance_px = std::max(node.distance_px, distance_.at(p));
       for (const Step& d : kAround) {
-        const cv::Point q = p + d;
-        if (degree_.at<std::uint8_t>(q) > 2 && node_of_.at<int>(q) < 0) {
-          node_of_.at<int>(q) = id;
+        const image::Point q = p + d;
+        if (degree_.at(q) > 2 && node_of_.at(q) < 0) {
+          node_of_.at(q) = id;
           members.push_back(q);
         }
       }
@@ -103,19 +103,19 @@ class Tracer {
     graph_.nodes.push_back(std::move(node));
   }
 
-  void add_tip(cv::Point p) {
-    node_of_.at<int>(p) = static_cast<int>(graph_.nodes.size());
-    graph_.nodes.push_back({vec(p), distance_.at<float>(p), {}});
+  void add_tip(image::Point p) {
+    node_of_.at(p) = static_cast<int>(graph_.nodes.size());
+    graph_.nodes.push_back({vec(p), distance_.at(p), {}});
   }
 
   // Chains that leave the node at `p`.
-  void start_chains(cv::Point p) {
-    const int node = node_of_.at<int>(p);
+  void start_chains(image::Point p) {
+    const int node = node_of_.at(p);
     if (node < 0) return;
     for (const Step& d : kAround) {
-      const cv::Point q = p + d;
-      if (thinned_.at<std::uint8_t>(q) == 0 || seen_.at<std::uint8_t>(q) != 0) continue;
-      const int other = node_of_.at<int>(q);
+      const image::Point q = p + d;
+      if (thinned_.at(q) == 0 || seen_.at(q) != 0) continue;
+      const int other = node_of_.at(q);
       if (other < 0) {
         walk(node, p, q);
       } else if (other > node) {  // two nodes side by side, one of them a tip
@@ -124,39 +124,39 @@ class Tracer {
     }
   }
 
-  void walk(int node, cv::Point from, cv::Point at) {
+  void walk(int node, image::Point from, image::Point at) {
     std::vector<Vector2f> points{graph_.nodes[node].position_px};
     while (true) {
-      seen_.at<std::uint8_t>(at) = 1;
+      seen_.at(at) = 1;
       points.push_back(vec(at));
-      cv::Point next{-1, -1};
+      image::Point next{-1, -1};
       for (const Step& d : kAround) {
-        const cv::Point q = at + d;
-        if (q != from && thinned_.at<std::uint8_t>(q) != 0) next = q;
+        const image::Point q = at + d;
+        if (q != from && thinned_.at(q) != 0) next = q;
       }
       if (next.x < 0) return;  // cannot be: a chain pixel has two neighbours
-      const int other = node_of_.at<int>(next);
+      const int other = node_of_.at(next);
       if (other >= 0) {
         points.push_back(graph_.nodes[other].position_px);
         add_segment(std::move(points), node, other);
         return;
       }
-      if (seen_.at<std::uint8_t>(next) != 0) return;
+      if (seen_.at(next) != 0) return;
       from = std::exchange(at, next);
     }
   }
 
-  void add_ring(cv::Point start) {
+  void add_ring(image::Point start) {
     std::vector<Vector2f> points;
-    cv::Point at = start;
+    image::Point at = start;
     bool moved = true;
     while (moved) {
-      seen_.at<std::uint8_t>(at) = 1;
+      seen_.at(at) = 1;
       points.push_back(vec(at));
       moved = false;
       for (const Step& d : kAround) {
-        const cv::Point q = at + d;
-        if (thinned_.at<std::uint8_t>(q) != 0 && seen_.at<std::uint8_t>(q) == 0) {
+        const image::Point q = at + d;
+        if (thinned_.at(q) != 0 && seen_.at(q) == 0) {
           at = q;
           moved = true;
           break;
@@ -169,12 +169,12 @@ class Tracer {
 
   void add_segment(std::vector<Vector2f> points, int a, int b);
 
-  const cv::Mat& thinned_;
-  const cv::Mat& distance_;
-  cv::Mat node_of_;
-  cv::Mat degree_;
-  cv::Mat seen_;
-  std::vector<cv::Point> pixels_;
+  const image::Mask& thinned_;
+  const image::Image<float>& distance_;
+  image::Image<int> node_of_;
+  image::Mask degree_;
+  image::Mask seen_;
+  std::vector<image::Point> pixels_;
   Graph graph_;
 };
 
@@ -249,19 +249,20 @@ float protrusion(const Graph& graph, const Segment& segment) {
 }
 
 // The width of what sticks out of the strand.
-float spur_width(const Graph& graph, const Segment& segment, const cv::Mat& distance) {
+float spur_width(const Graph& graph, const Segment& segment, const image::Image<float>& distance) {
   const int side = tip(graph, segment.node[0]) ? 1 : 0;
   const Node& root = graph.nodes[segment.node[side]];
   float thickest = 0;
   for (const Vector2f& p : segment.points_px) {
     if ((p - root.position_px).norm() < root.distance_px + 1) continue;
-    thickest = std::max(
-        thickest, distance.at<float>(geometry::nearest_px(p.y()), geometry::nearest_px(p.x())));
+    thickest =
+        std::max(thickest, distance.at(geometry::nearest_px(p.y()), geometry::nearest_px(p.x())));
   }
   return width_at(thickest);
 }
 
-bool spur(const Graph& graph, const Segment& segment, const cv::Mat& distance, float width) {
+bool spur(const Graph& graph, const Segment& segment, const image::Image<float>& distance,
+          float width) {
   const float reach = protrusion(graph, segment);
   if (reach < 0 || reach >= std::max(kWhiskerWidths * width, kSpurPx)) return false;
   if (reach < std::max(kSpurPx, kStumpWidths * width)) return true;
@@ -269,7 +270,7 @@ bool spur(const Graph& graph, const Segment& segment, const cv::Mat& distance, f
          reach < (width < kThinPx ? kSpurWidths * width : 0);
 }
 
-void prune(Graph& graph, const cv::Mat& distance, float width) {
+void prune(Graph& graph, const image::Image<float>& distance, float width) {
   for (int round = 0; round < kPruningRounds; ++round) {
     std::vector<std::pair<float, int>> spurs;
     for (int i = 0; i < static_cast<int>(graph.segments.size()); ++i) {
@@ -290,13 +291,12 @@ void prune(Graph& graph, const cv::Mat& distance, float width) {
 
 // The usual width. Where strands lie beside each other the mask is twice as wide: the median is
 // taken over what is not much wider than the narrow parts.
-float usual_width(const Graph& graph, const cv::Mat& distance, float fallback) {
+float usual_width(const Graph& graph, const image::Image<float>& distance, float fallback) {
   std::vector<float> distances;
   for (const Segment& segment : graph.segments) {
     if (!segment.alive) continue;
     for (const Vector2f& p : segment.points_px) {
-      distances.push_back(
-          distance.at<float>(geometry::nearest_px(p.y()), geometry::nearest_px(p.x())));
+      distances.push_back(distance.at(geometry::nearest_px(p.y()), geometry::nearest_px(p.x())));
     }
   }
   if (distances.empty()) return fallback;
@@ -308,13 +308,13 @@ float usual_width(const Graph& graph, const cv::Mat& distance, float fallback) {
 
 }  // namespace
 
-int least_segments(const cv::Mat& mask) {
+int least_segments(const image::Mask& mask) {
   int euler = 0;  // pieces less holes: corners, less sides, and faces of all pixels, each once
-  for (int v = 0; v + 1 < mask.rows; ++v) {
-    const std::uint8_t* row = mask.ptr<std::uint8_t>(v);
-    const std::uint8_t* down = mask.ptr<std::uint8_t>(v + 1);
+  for (int v = 0; v + 1 < mask.height(); ++v) {
+    const std::uint8_t* row = mask.row(v);
+    const std::uint8_t* down = mask.row(v + 1);
     int here = 0;
-    for (int u = 0; u + 1 < mask.cols; ++u) {
+    for (int u = 0; u + 1 < mask.width(); ++u) {
       const int beside = row[u] | row[u + 1];
       const int below = row[u] | down[u];
       here += (beside | below | down[u + 1]) - beside - below + row[u];
@@ -324,7 +324,7 @@ int least_segments(const cv::Mat& mask) {
   return std::max(0, -euler);
 }
 
-Graph make_graph(const cv::Mat& thinned, const Region& region) {
+Graph make_graph(const image::Mask& thinned, const Region& region) {
   Graph graph = Tracer(thinned, region.distance_px).run();
   for (int i = 0; i < static_cast<int>(graph.nodes.size()); ++i) dissolve(graph, i);
   prune(graph, region.distance_px, region.width_px);

@@ -42,12 +42,12 @@ struct Graph {
   }
 };
 
-/// Segments that the graph of `mask` ([h, w] u8, 0 or 1, its outermost pixels 0) has at least:
+/// Segments that the graph of `mask` (0 or 1, its outermost pixels 0) has at least:
 /// Euler's formula says by how many they exceed its nodes, which is by how many its holes exceed
 /// its pieces. One pass over the mask.
-[[nodiscard]] int least_segments(const cv::Mat& mask);
+[[nodiscard]] int least_segments(const image::Mask& mask);
 
 /// The pruned graph of the skeleton `thinned` of `region`; may hold no segment.
-[[nodiscard]] Graph make_graph(const cv::Mat& thinned, const Region& region);
+[[nodiscard]] Graph make_graph(const image::Mask& thinned, const Region& region);
 
 }  // namespace flowdlo::path

@@ -26,7 +26,8 @@ Vector2f normal_at(const Points& points, int i) {
   return Vector2f(-along.y(), along.x()).normalized();
 }
 
-float reach_of(const cv::Mat& mask, const Vector2f& from, const Vector2f& direction, float most) {
+float reach_of(const image::Mask& mask, const Vector2f& from, const Vector2f& direction,
+               float most) {
   float reach = 0;
   while (reach < most && lit(mask, from + (reach + kStepPx) * direction)) reach += kStepPx;
   return reach;
@@ -55,7 +56,7 @@ Points smoothed(Points points, int half) {
   return points;
 }
 
-void recentre(Points& points, const cv::Mat& mask, float width_px) {
+void recentre(Points& points, const image::Mask& mask, float width_px) {
   const int count = static_cast<int>(points.size());
   if (count < 5) return;
   const float most = std::ceil(kMostReach * width_px) + 1;

@@ -2,8 +2,9 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <opencv2/core.hpp>
 #include <vector>
+
+#include "image/image.hpp"
 
 namespace flowdlo::path {
 
@@ -15,7 +16,7 @@ namespace flowdlo::path {
 
 /// Thinning leaves a line a pixel or two off the middle: each point moves to the middle of the
 /// mask across the line, where the mask is about `width_px` wide; the moves are smoothed.
-void recentre(std::vector<Eigen::Vector2f>& points, const cv::Mat& mask, float width_px);
+void recentre(std::vector<Eigen::Vector2f>& points, const image::Mask& mask, float width_px);
 
 /// Unit direction of the line at its front, pointing off it; fitted over a width and a half.
 [[nodiscard]] Eigen::Vector2f direction_at_front(const std::vector<Eigen::Vector2f>& points,

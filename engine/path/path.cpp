@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <functional>
-#include <opencv2/core.hpp>
 #include <string>
 #include <utility>
 

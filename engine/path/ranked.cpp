@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <opencv2/core.hpp>
 #include <string>
 #include <utility>
 
 #include "geometry/depth.hpp"
 #include "geometry/pixel.hpp"
+#include "image/masks.hpp"
 #include "path/assemble.hpp"
 #include "path/bonds.hpp"
 #include "path/links.hpp"
@@ -112,7 +112,7 @@ Result<Traversals> rank(const Strands& strands, const Region& region, const Fram
   if (result.ranked.empty()) {
     return Error{ErrorCode::kNoPath,
                  "path: expected a stroke longer than it is wide, got a spot of " +
-                     std::to_string(cv::countNonZero(region.mask)) +
+                     std::to_string(image::count_set(region.mask)) +
                      " pixels; check the segmentation"};
   }
   for (Path& path : result.ranked) path.width_px = strands.width_px;

@@ -2,13 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <opencv2/imgproc.hpp>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "geometry/mask_box.hpp"
 #include "geometry/pixel.hpp"
+#include "image/components.hpp"
+#include "image/distance.hpp"
+#include "image/line.hpp"
+#include "image/masks.hpp"
+#include "image/resize.hpp"
 #include "path/fringe.hpp"
 #include "path/seams.hpp"
 #include "path/strokes.hpp"
@@ -26,21 +30,15 @@ constexpr float kStubbyWidths = 30.0F;      // strands beside each other, when s
 constexpr float kThinnestPx = 3.0F;         // strands thinner than this stand no seam
 constexpr float kHighlightArea = 6.0F;      // and its area in width^2, at most
 
-cv::Mat crop(const Frame& frame, const cv::Rect& box) {
-  cv::Mat mask = cv::Mat::zeros(box.height + 2 * kBorderPx, box.width + 2 * kBorderPx, CV_8U);
+image::Mask crop(const Frame& frame, const image::Rect& box) {
+  image::Mask mask(image::grown(box, kBorderPx).size(), 0);
   for (int v = 0; v < box.height; ++v) {
     const std::uint8_t* from =
         frame.mask.data() + static_cast<std::size_t>(box.y + v) * frame.width + box.x;
-    std::uint8_t* to = mask.ptr<std::uint8_t>(v + kBorderPx) + kBorderPx;
+    std::uint8_t* to = mask.row(v + kBorderPx) + kBorderPx;
     for (int u = 0; u < box.width; ++u) to[u] = from[u] > 127 ? 1 : 0;
   }
   return mask;
-}
-
-cv::Mat distance_of(const cv::Mat& mask) {
-  cv::Mat distance;
-  cv::distanceTransform(mask, distance, cv::DIST_L2, 5);
-  return distance;
 }
 
 struct Widths {
@@ -51,13 +49,13 @@ struct Widths {
 // Median width over ridges of the distance, each weighted by its distance (frayed borders have
 // many ridges, but low ones), and only those not much higher than the low ones: where strands lie
 // beside each other the mask is twice as wide.
-Widths ridge_widths(const cv::Mat& distance) {
+Widths ridge_widths(const image::Image<float>& distance) {
   std::vector<double> weight(512, 0.0);
-  for (int v = 1; v + 1 < distance.rows; ++v) {
-    const float* up = distance.ptr<float>(v - 1);
-    const float* row = distance.ptr<float>(v);
-    const float* down = distance.ptr<float>(v + 1);
-    for (int u = 1; u + 1 < distance.cols; ++u) {
+  for (int v = 1; v + 1 < distance.height(); ++v) {
+    const float* up = distance.row(v - 1);
+    const float* row = distance.row(v);
+    const float* down = distance.row(v + 1);
+    for (int u = 1; u + 1 < distance.width(); ++u) {
       const float d = row[u];
       if (d <= 0) continue;
       const bool ridge = d >= row[u - 1] && d >= row[u + 1] && d >= up[u] && d >= down[u];
@@ -87,15 +85,15 @@ Widths ridge_widths(const cv::Mat& distance) {
 
 // The seams at the scale of the rope's width. Where all of the mask is short for its width, that
 // may be the width of two strands or three.
-cv::Mat seams_of(const Region& region, const Widths& widths, const Frame& frame) {
+image::Mask seams_of(const Region& region, const Widths& widths, const Frame& frame) {
   const auto at = [&](float usual_px, float narrow_px) {
     return find_seams(region.mask, {region.offset_px, usual_px, narrow_px}, frame);
   };
   const float narrow_px = std::max(widths.narrow_px, 0.5F * widths.usual_px);  // borders fray
-  const auto area = static_cast<float>(cv::countNonZero(region.mask));
+  const auto area = static_cast<float>(image::count_set(region.mask));
   if (area > kStubbyWidths * widths.usual_px * widths.usual_px)
     return at(widths.usual_px, widths.usual_px);
-  cv::Mat seams;
+  image::Mask seams;
   if (narrow_px < kNarrowShare * widths.usual_px) seams = at(narrow_px, narrow_px);
   for (const float share : {1.0F, 0.5F, 0.33F}) {
     if (seams.empty())
@@ -110,12 +108,12 @@ void cut_seams(const Frame& frame, Region& region) {
   region.width_px = widths.usual_px;
   region.seams = seams_of(region, widths, frame);
   if (region.seams.empty()) return;
-  cv::Mat parted = region.mask.clone();
-  parted.setTo(0, region.seams);
-  cv::Mat distance_px = distance_of(parted);
+  image::Mask parted = region.mask.clone();
+  image::erase(parted, region.seams);
+  image::Image<float> distance_px = image::distance_to_empty(parted);
   const float width_px = ridge_widths(distance_px).usual_px;
   if (width_px < kThinnestPx && widths.usual_px < 2 * kThinnestPx + 0.5F) {
-    region.seams = cv::Mat();
+    region.seams = {};
     return;
   }
   region.mask = std::move(parted);
@@ -124,145 +122,136 @@ void cut_seams(const Frame& frame, Region& region) {
 }
 
 // Erases the components below `least_area`; returns the largest one's area, 0 if none is left.
-int erase_specks(cv::Mat& mask, double least_area) {
-  cv::Mat labels;
-  cv::Mat stats;
-  cv::Mat centroids;
-  const int count = cv::connectedComponentsWithStats(mask, labels, stats, centroids, 8, CV_32S);
+int erase_specks(image::Mask& mask, double least_area) {
+  const auto [labels, pieces] = image::components(mask, image::Neighbours::kEight);
+  const std::size_t count = pieces.size();
   int largest = 0;
-  for (int i = 1; i < count; ++i) largest = std::max(largest, stats.at<int>(i, cv::CC_STAT_AREA));
-  std::vector<std::uint8_t> keep(static_cast<std::size_t>(count), 0);
+  for (std::size_t i = 1; i < count; ++i) largest = std::max(largest, pieces[i].area);
+  std::vector<std::uint8_t> keep(count, 0);
   bool all = true;
-  for (int i = 1; i < count; ++i) {
-    const int area = stats.at<int>(i, cv::CC_STAT_AREA);
+  for (std::size_t i = 1; i < count; ++i) {
+    const int area = pieces[i].area;
     keep[i] = area >= kSpeckAreaPx && (area >= least_area || area == largest) ? 1 : 0;
     all = all && keep[i] != 0;
   }
   if (all) return largest;
-  for (int v = 0; v < mask.rows; ++v) {
-    const int* label = labels.ptr<int>(v);
-    std::uint8_t* row = mask.ptr<std::uint8_t>(v);
-    for (int u = 0; u < mask.cols; ++u) row[u] = keep[label[u]];
+  for (int v = 0; v < mask.height(); ++v) {
+    const int* label = labels.row(v);
+    std::uint8_t* row = mask.row(v);
+    for (int u = 0; u < mask.width(); ++u) row[u] = keep[label[u]];
   }
   return largest >= kSpeckAreaPx ? largest : 0;
 }
 
 // A highlight lies inside one strand: with it filled, the strand is no wider than the rope. A
 // hole between two strands makes the filled mask wider than that and is kept.
-bool fill_highlights(cv::Mat& mask, float width) {
-  cv::Mat labels;
-  cv::Mat stats;
-  cv::Mat centroids;
-  const cv::Mat empty = mask == 0;
-  const int count = cv::connectedComponentsWithStats(empty, labels, stats, centroids, 4, CV_32S);
+bool fill_highlights(image::Mask& mask, float width) {
+  const auto [labels, pieces] = image::components(image::inverse(mask), image::Neighbours::kFour);
+  const std::size_t count = pieces.size();
   if (count <= 2) return false;
-  const int outside = labels.at<int>(0, 0);
+  const auto outside = static_cast<std::size_t>(labels.at(0, 0));
   const double speck = std::max(3.0, static_cast<double>(kHoleSpecksWidths * width * width));
   const double most = kHighlightArea * width * width;
-  std::vector<std::uint8_t> fill(static_cast<std::size_t>(count), 0);
-  for (int i = 1; i < count; ++i) {
-    if (i != outside && stats.at<int>(i, cv::CC_STAT_AREA) <= most) fill[i] = 1;
+  std::vector<std::uint8_t> fill(count, 0);
+  for (std::size_t i = 1; i < count; ++i) {
+    if (i != outside && pieces[i].area <= most) fill[i] = 1;
   }
   if (std::find(fill.begin(), fill.end(), 1) == fill.end()) return false;
-  cv::Mat filled = mask.clone();
-  for (int v = 0; v < mask.rows; ++v) {
-    const int* label = labels.ptr<int>(v);
-    std::uint8_t* row = filled.ptr<std::uint8_t>(v);
-    for (int u = 0; u < mask.cols; ++u) row[u] |= fill[label[u]];
+  image::Mask filled = mask.clone();
+  for (int v = 0; v < mask.height(); ++v) {
+    const int* label = labels.row(v);
+    std::uint8_t* row = filled.row(v);
+    for (int u = 0; u < mask.width(); ++u) row[u] |= fill[label[u]];
   }
-  const cv::Mat distance = distance_of(filled);
-  std::vector<float> depth(static_cast<std::size_t>(count), 0.0F);
-  for (int v = 0; v < mask.rows; ++v) {
-    const int* label = labels.ptr<int>(v);
-    const float* row = distance.ptr<float>(v);
-    for (int u = 0; u < mask.cols; ++u) {
+  const image::Image<float> distance = image::distance_to_empty(filled);
+  std::vector<float> depth(count, 0.0F);
+  for (int v = 0; v < mask.height(); ++v) {
+    const int* label = labels.row(v);
+    const float* row = distance.row(v);
+    for (int u = 0; u < mask.width(); ++u) {
       if (fill[label[u]] != 0) depth[label[u]] = std::max(depth[label[u]], row[u]);
     }
   }
   bool any = false;
-  for (int i = 1; i < count; ++i) {
+  for (std::size_t i = 1; i < count; ++i) {
     if (fill[i] == 0) continue;
-    const bool tiny = stats.at<int>(i, cv::CC_STAT_AREA) <= speck;
+    const bool tiny = pieces[i].area <= speck;
     fill[i] = tiny || depth[i] <= kHighlightWidths * width ? 1 : 0;
     any = any || fill[i] != 0;
   }
   if (!any) return false;
-  for (int v = 0; v < mask.rows; ++v) {
-    const int* label = labels.ptr<int>(v);
-    std::uint8_t* row = mask.ptr<std::uint8_t>(v);
-    for (int u = 0; u < mask.cols; ++u) row[u] |= fill[label[u]];
+  for (int v = 0; v < mask.height(); ++v) {
+    const int* label = labels.row(v);
+    std::uint8_t* row = mask.row(v);
+    for (int u = 0; u < mask.width(); ++u) row[u] |= fill[label[u]];
   }
   return true;
 }
 
 }  // namespace
 
-cv::Rect bounding_box(const Frame& frame) {
+image::Rect bounding_box(const Frame& frame) {
   const geometry::MaskBox box = geometry::mask_box(frame);
   return {box.left, box.top, box.width, box.height};
 }
 
-bool lit(const cv::Mat& mask, int u, int v) {
-  return u >= 0 && v >= 0 && u < mask.cols && v < mask.rows && mask.at<std::uint8_t>(v, u) != 0;
+bool lit(const image::Mask& mask, int u, int v) {
+  return u >= 0 && v >= 0 && u < mask.width() && v < mask.height() && mask.at(v, u) != 0;
 }
 
-bool lit(const cv::Mat& mask, const Eigen::Vector2f& p) {
+bool lit(const image::Mask& mask, const Eigen::Vector2f& p) {
   return lit(mask, geometry::nearest_px(p.x()), geometry::nearest_px(p.y()));
 }
 
 Region cut(const Region& region, const std::vector<std::vector<Eigen::Vector2f>>& lines) {
   Region result = region;
   const auto pixel = [](const Eigen::Vector2f& p) {
-    return cv::Point(geometry::nearest_px(p.x()), geometry::nearest_px(p.y()));
+    return image::Point{geometry::nearest_px(p.x()), geometry::nearest_px(p.y())};
   };
-  cv::Mat drawn = cv::Mat::zeros(region.mask.size(), CV_8U);
+  image::Mask drawn(region.mask.size(), 0);
   for (const auto& line : lines) {  // without diagonal steps, which join what they pass
     for (std::size_t i = 1; i < line.size(); ++i) {
-      cv::line(drawn, pixel(line[i - 1]), pixel(line[i]), cv::Scalar(1), 1, cv::LINE_4);
+      image::draw_line(drawn, pixel(line[i - 1]), pixel(line[i]), 1, image::Steps::kSide);
     }
   }
   result.mask = region.mask.clone();
-  result.mask.setTo(0, drawn);
-  result.seams = region.seams.empty() ? drawn : cv::Mat(region.seams | drawn);
+  image::erase(result.mask, drawn);
+  result.seams = region.seams.empty() ? drawn : image::either(region.seams, drawn);
   if (erase_specks(result.mask, 0) == 0) return region;
-  result.distance_px = distance_of(result.mask);
+  result.distance_px = image::distance_to_empty(result.mask);
   result.width_px = ridge_widths(result.distance_px).usual_px;
   return result;
 }
 
 Region magnified(const Region& region, int times) {
   Region result = region;
-  const auto enlarge = [times](const cv::Mat& image) {
-    cv::Mat large;
-    cv::resize(image, large, {}, times, times, cv::INTER_NEAREST);
-    return large;
+  const auto enlarge = [times](const image::Mask& mask) {
+    return image::nearest<std::uint8_t>(mask, mask.size() * times);
   };
   result.mask = enlarge(region.mask);
   if (!region.seams.empty()) result.seams = enlarge(region.seams);
-  result.distance_px = distance_of(result.mask);
+  result.distance_px = image::distance_to_empty(result.mask);
   result.width_px = ridge_widths(result.distance_px).usual_px;
   return result;
 }
 
 Region smoothed(const Region& region, int size_px) {
   Region result = region;
-  cv::Mat share;
   const bool cut = !region.seams.empty();
-  cv::Mat(cut ? cv::Mat(region.mask | region.seams) : region.mask).convertTo(share, CV_8U, 255.0);
-  cv::boxFilter(share, share, CV_8U, {size_px, size_px}, {-1, -1}, true, cv::BORDER_CONSTANT);
-  result.mask = cv::Mat(share > 127) / 255;
-  if (cut) result.mask.setTo(0, region.seams);
+  result.mask =
+      image::majority(cut ? image::either(region.mask, region.seams) : region.mask, size_px);
+  if (cut) image::erase(result.mask, region.seams);
   if (erase_specks(result.mask, kSpeckWidths * region.width_px * region.width_px) == 0) {
     return region;
   }
   fill_highlights(result.mask, region.width_px);
-  if (cut) result.mask.setTo(0, region.seams);
-  result.distance_px = distance_of(result.mask);
+  if (cut) image::erase(result.mask, region.seams);
+  result.distance_px = image::distance_to_empty(result.mask);
   return result;
 }
 
 Result<Region> clean(const Frame& frame, int ropes) {
-  const cv::Rect box = bounding_box(frame);
+  const image::Rect box = bounding_box(frame);
   if (box.empty()) {
     return Error{
         ErrorCode::kNoPath,
@@ -280,14 +269,14 @@ Result<Region> clean(const Frame& frame, int ropes) {
                                          std::to_string(kSpeckAreaPx) +
                                          " pixels; check the segmentation"};
   }
-  region.distance_px = distance_of(region.mask);
+  region.distance_px = image::distance_to_empty(region.mask);
   cut_seams(frame, region);
-  const cv::Mat measured = region.mask.clone();
+  const image::Mask measured = region.mask.clone();
   erase_specks(region.mask, kSpeckWidths * region.width_px * region.width_px);
   fill_highlights(region.mask, region.width_px);
-  if (!region.seams.empty()) region.mask.setTo(0, region.seams);
-  if (cv::countNonZero(region.mask != measured) == 0) return region;
-  region.distance_px = distance_of(region.mask);
+  if (!region.seams.empty()) image::erase(region.mask, region.seams);
+  if (image::same(region.mask, measured)) return region;
+  region.distance_px = image::distance_to_empty(region.mask);
   region.width_px = ridge_widths(region.distance_px).usual_px;
   return region;
 }

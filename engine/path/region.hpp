@@ -3,21 +3,21 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <opencv2/core.hpp>
 #include <vector>
 
 #include "flowdlo/frame.hpp"
 #include "flowdlo/result.hpp"
+#include "image/image.hpp"
 
 namespace flowdlo::path {
 
 struct Region {
-  cv::Point offset_px;    ///< image position of the crop's (0, 0)
-  cv::Mat mask;           ///< [h, w] u8, 0 or 1, with at least two empty pixels on every side
-  cv::Mat distance_px;    ///< [h, w] f32, distance to the nearest empty pixel
-  cv::Mat seams;          ///< [h, w] u8, 1 where the mask was cut between strands; empty: nowhere
-  float width_px = 0;     ///< the rope's width, a first guess
-  bool filtered = false;  ///< as Strokes::filtered
+  image::Point offset_px;           ///< image position of the crop's (0, 0)
+  image::Mask mask;                 ///< 0 or 1, with at least two empty pixels on every side
+  image::Image<float> distance_px;  ///< to the nearest empty pixel
+  image::Mask seams;                ///< 1 where the mask was cut between strands; empty: nowhere
+  float width_px = 0;               ///< the rope's width, a first guess
+  bool filtered = false;            ///< as Strokes::filtered
 };
 
 /// Image position of the crop's (0, 0).
@@ -30,11 +30,11 @@ struct Region {
 [[nodiscard]] inline float width_at(float distance_px) { return 2.0F * distance_px - 0.5F; }
 
 /// Whether a pixel of `mask`, or the one nearest to `p`, is set; false outside.
-[[nodiscard]] bool lit(const cv::Mat& mask, int u, int v);
-[[nodiscard]] bool lit(const cv::Mat& mask, const Eigen::Vector2f& p);
+[[nodiscard]] bool lit(const image::Mask& mask, int u, int v);
+[[nodiscard]] bool lit(const image::Mask& mask, const Eigen::Vector2f& p);
 
 /// The smallest rectangle that holds the mask; empty without any.
-[[nodiscard]] cv::Rect bounding_box(const Frame& frame);
+[[nodiscard]] image::Rect bounding_box(const Frame& frame);
 
 /// Crops and cleans the mask. Fails with kNoPath when it is empty, holds specks only, or more
 /// strokes than one rope, or several, can have made (`strokes_of`).

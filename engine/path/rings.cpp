@@ -35,7 +35,7 @@ constexpr float kAsideLeast = 0.12F;    // widths: what tells the side that an e
 // Across a ring, at each of its points; indices wrap around.
 class Ring {
  public:
-  Ring(const Points& points, const cv::Mat& mask, float usual_px)
+  Ring(const Points& points, const image::Mask& mask, float usual_px)
       : count_(static_cast<int>(points.size())) {
     const int half = std::clamp(static_cast<int>(std::lround(0.5F * usual_px)), 2, 12);
     for (int i = 0; i < count_; ++i) points_.push_back(mean_at(points, i, half));

@@ -42,8 +42,8 @@ std::vector<float> end_widths(const Strands& strands, const Region& region) {
       for (int i = first; i < last && !strand.doubled; ++i) {
         const Eigen::Vector2f& p = points[side == 0 ? i : count - 1 - i];
         if (!lit(region.mask, p)) continue;
-        samples.push_back(width_at(region.distance_px.at<float>(geometry::nearest_px(p.y()),
-                                                                geometry::nearest_px(p.x()))));
+        samples.push_back(width_at(
+            region.distance_px.at(geometry::nearest_px(p.y()), geometry::nearest_px(p.x()))));
       }
       widths.push_back(samples.empty() ? 0 : geometry::median_of(samples));
     }

@@ -34,7 +34,7 @@ bool seam_at(const Region& region, const Vector2f& edge, const Vector2f& outward
 }
 
 Line measured(const Segment& segment, const Region& region, float width_px) {
-  const cv::Mat& mask = region.mask;
+  const image::Mask& mask = region.mask;
   const int half = std::clamp(static_cast<int>(std::lround(0.5F * width_px)), 2, 12);
   const Points points = smoothed(segment.points_px, half);
   const int last = static_cast<int>(points.size()) - 1;
@@ -155,7 +155,7 @@ float usual_size(const std::vector<Line>& lines) {
 
 }  // namespace
 
-float reach(const cv::Mat& mask, const Vector2f& p, const Vector2f& direction, float most_px) {
+float reach(const image::Mask& mask, const Vector2f& p, const Vector2f& direction, float most_px) {
   float walked = 1;
   while (walked < most_px && lit(mask, p + walked * direction)) walked += 1;
   walked -= 1 - kScanStepPx;
@@ -163,7 +163,7 @@ float reach(const cv::Mat& mask, const Vector2f& p, const Vector2f& direction, f
   return walked - 0.5F * kScanStepPx;
 }
 
-Station across(const cv::Mat& mask, const Vector2f& p, const Vector2f& along, float most_px) {
+Station across(const image::Mask& mask, const Vector2f& p, const Vector2f& along, float most_px) {
   Station station{p};
   if (along.norm() <= 0) return station;
   station.normal = Vector2f(-along.y(), along.x()).normalized();

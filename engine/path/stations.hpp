@@ -2,7 +2,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <opencv2/core.hpp>
 #include <vector>
 
 #include "path/graph.hpp"
@@ -41,7 +40,7 @@ using Line = std::vector<Station>;
 
 /// What lies across a line at its point `p`, where it runs `along`; no width where that is no
 /// direction. Scans at most `most_px` to each side.
-[[nodiscard]] Station across(const cv::Mat& mask, const Eigen::Vector2f& p,
+[[nodiscard]] Station across(const image::Mask& mask, const Eigen::Vector2f& p,
                              const Eigen::Vector2f& along, float most_px);
 
 /// The size of one strand; 0 where nothing tells it. `usual_px` is the rope's usual width.
@@ -61,7 +60,7 @@ struct Aside {
                                const Eigen::Vector2f& left);
 
 /// How far `mask` reaches from `p` along the unit vector `direction`, at most `most_px`.
-[[nodiscard]] float reach(const cv::Mat& mask, const Eigen::Vector2f& p,
+[[nodiscard]] float reach(const image::Mask& mask, const Eigen::Vector2f& p,
                           const Eigen::Vector2f& direction, float most_px);
 
 }  // namespace flowdlo::path

@@ -33,14 +33,15 @@ constexpr float kHeadingWidths = 0.75F;  // from the middle of what tells the di
 constexpr float kMaxSlope = 1.5F;        // metres of depth a metre sideways
 constexpr float kLeastMasked = 0.3F;     // share of a stretch that the mask knows too
 
-float at(const cv::Mat& image, const Vector2f& p) {
-  const int u = std::clamp(geometry::nearest_px(p.x()), 0, image.cols - 1);
-  const int v = std::clamp(geometry::nearest_px(p.y()), 0, image.rows - 1);
-  return image.at<float>(v, u);
+float at(const image::Image<float>& image, const Vector2f& p) {
+  const int u = std::clamp(geometry::nearest_px(p.x()), 0, image.width() - 1);
+  const int v = std::clamp(geometry::nearest_px(p.y()), 0, image.height() - 1);
+  return image.at(v, u);
 }
 
 // How many points at side 0 the crossing distorts: there the mask is wider than the rope.
-int distorted(const Points& points, const cv::Mat& distance, float scale_px, float width_px) {
+int distorted(const Points& points, const image::Image<float>& distance, float scale_px,
+              float width_px) {
   const int count = static_cast<int>(points.size());
   const int most = static_cast<int>(std::min(0.4F * static_cast<float>(count), 3.0F * scale_px));
   const float calm = 0.5F * 1.15F * width_px + 0.75F;
@@ -87,8 +88,8 @@ float depth_at(const Vector2f& p, const Region& region, const Frame& frame) {
   for (const auto& [du, dv] : {std::pair{0, 0}, {1, 0}, {-1, 0}, {0, 1}, {0, -1}}) {
     const int u = geometry::nearest_px(p.x()) + du;
     const int v = geometry::nearest_px(p.y()) + dv;
-    if (u < 0 || v < 0 || u >= region.mask.cols || v >= region.mask.rows) continue;
-    if (region.mask.at<std::uint8_t>(v, u) == 0) continue;
+    if (u < 0 || v < 0 || u >= region.mask.width() || v >= region.mask.height()) continue;
+    if (region.mask.at(v, u) == 0) continue;
     const int image_u = u + region.offset_px.x;
     const int image_v = v + region.offset_px.y;
     if (image_u < 0 || image_v < 0 || image_u >= frame.width || image_v >= frame.height) continue;

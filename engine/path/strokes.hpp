@@ -2,18 +2,18 @@
 #pragma once
 
 #include <cstdint>
-#include <opencv2/core.hpp>
 
 #include "flowdlo/result.hpp"
+#include "image/image.hpp"
 
 namespace flowdlo::path {
 
-/// Half of the mask's border pixels: a stroke has one on each side. `mask` is [h, w] u8, 0 or 1,
+/// Half of the mask's border pixels: a stroke has one on each side. `mask` is 0 or 1,
 /// its outermost pixels 0.
-[[nodiscard]] std::int64_t stroke_length_px(const cv::Mat& mask);
+[[nodiscard]] std::int64_t stroke_length_px(const image::Mask& mask);
 
 struct Strokes {
-  cv::Mat mask;           ///< [h, w] u8, 0 or 1
+  image::Mask mask;       ///< 0 or 1
   bool filtered = false;  ///< the mask given is noise or texture, and this is what a filter left
 };
 
@@ -21,6 +21,6 @@ struct Strokes {
 /// Otherwise after a majority filter, the smallest that leaves a mask which one rope can have made:
 /// noise goes, a rope under it stays. Fails with kNoPath where none does. One pass over the mask,
 /// four with filters.
-[[nodiscard]] Result<Strokes> strokes_of(cv::Mat mask, const cv::Size& image, int ropes = 1);
+[[nodiscard]] Result<Strokes> strokes_of(image::Mask mask, const image::Size& image, int ropes = 1);
 
 }  // namespace flowdlo::path

@@ -53,12 +53,10 @@ constexpr Rules kRules = make_rules();
 
 class Thinner {
  public:
-  explicit Thinner(const cv::Mat& mask)
-      : image_(mask.clone()),
-        step_(static_cast<int>(image_.step[0])),
-        queued_(static_cast<std::size_t>(mask.total()), 0) {}
+  explicit Thinner(const image::Mask& mask)
+      : image_(mask.clone()), step_(static_cast<int>(image_.stride())), queued_(mask.total(), 0) {}
 
-  cv::Mat run() {
+  image::Mask run() {
     std::vector<int> active = borders();
     std::vector<int> touched;
     while (!active.empty()) {
@@ -67,7 +65,7 @@ class Thinner {
       active.insert(active.end(), touched.begin(), touched.end());
       pass(active, kRules.second, touched);
       active.clear();
-      const std::uint8_t* const pixels = image_.ptr<std::uint8_t>();
+      const std::uint8_t* const pixels = image_.data();
       for (const int p : touched) {
         queued_[p] = 0;
         if (pixels[p] != 0) active.push_back(p);
@@ -88,9 +86,9 @@ class Thinner {
 
   [[nodiscard]] std::vector<int> borders() const {
     std::vector<int> list;
-    const std::uint8_t* const pixels = image_.ptr<std::uint8_t>();
-    for (int v = 1; v + 1 < image_.rows; ++v) {
-      for (int p = v * step_ + 1; p < v * step_ + image_.cols - 1; ++p) {
+    const std::uint8_t* const pixels = image_.data();
+    for (int v = 1; v + 1 < image_.height(); ++v) {
+      for (int p = v * step_ + 1; p < v * step_ + image_.width() - 1; ++p) {
         if (pixels[p] != 0 && code(pixels + p, step_) != 255) list.push_back(p);
       }
     }
@@ -101,7 +99,7 @@ class Thinner {
   // Which pixels go is as good as random to a branch predictor: lists grow without branches.
   void pass(const std::vector<int>& active, const std::array<bool, 256>& rule,
             std::vector<int>& touched) {
-    std::uint8_t* const pixels = image_.ptr<std::uint8_t>();
+    std::uint8_t* const pixels = image_.data();
     std::uint8_t* const queued = queued_.data();
     const std::ptrdiff_t step = step_;
     const std::array<std::ptrdiff_t, 8> around{-step, -step + 1, 1,  step + 1,
@@ -133,16 +131,16 @@ class Thinner {
 
   // Staircases become diagonals: afterwards two neighbours mean a line, one a tip.
   void make_single() {
-    std::uint8_t* const pixels = image_.ptr<std::uint8_t>();
-    for (int v = 1; v + 1 < image_.rows; ++v) {
-      for (int p = v * step_ + 1; p < v * step_ + image_.cols - 1; ++p) {
+    std::uint8_t* const pixels = image_.data();
+    for (int v = 1; v + 1 < image_.height(); ++v) {
+      for (int p = v * step_ + 1; p < v * step_ + image_.width() - 1; ++p) {
         if (pixels[p] == 0) continue;
         if (kRules.corner[static_cast<std::size_t>(code(pixels + p, step_))]) pixels[p] = 0;
       }
     }
   }
 
-  cv::Mat image_;
+  image::Mask image_;
   int step_;
   std::vector<std::uint8_t> queued_;  // by pixel: 1 where it is in `touched`
   std::vector<int> marked_;
@@ -150,6 +148,6 @@ class Thinner {
 
 }  // namespace
 
-cv::Mat thin(const cv::Mat& mask) { return Thinner(mask).run(); }
+image::Mask thin(const image::Mask& mask) { return Thinner(mask).run(); }
 
 }  // namespace flowdlo::path

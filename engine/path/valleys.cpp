@@ -5,11 +5,11 @@
 #include <cstdint>
 #include <numbers>
 #include <numeric>
-#include <opencv2/imgproc.hpp>
 #include <vector>
 
 #include "geometry/depth.hpp"
 #include "geometry/quantile.hpp"
+#include "image/blur.hpp"
 
 namespace flowdlo::path {
 namespace {
@@ -25,22 +25,23 @@ constexpr float kAbsent_m = 1e6F;    // stands for a depth that is missing,
 constexpr float kSlit_m = 4e6F;      // and for that of a slit: deeper than any side
 
 struct Depths {
-  cv::Mat smooth_m;   // [h, w] f32, kAbsent_m outside of the mask
-  float noise_m = 0;  // of a single depth
+  image::Image<float> smooth_m;  // kAbsent_m outside of the mask
+  float noise_m = 0;             // of a single depth
   float usual_m = 0;
 };
 
 // Depths inside of the mask, 0 where there are none.
-cv::Mat masked_depths(const cv::Mat& mask, cv::Point offset_px, const Frame& frame) {
-  cv::Mat depth = cv::Mat::zeros(mask.size(), CV_32F);
+image::Image<float> masked_depths(const image::Mask& mask, image::Point offset_px,
+                                  const Frame& frame) {
+  image::Image<float> depth(mask.size(), 0.0F);
   const int left = std::max(0, -offset_px.x);
-  const int right = std::min(mask.cols, frame.width - offset_px.x);
-  for (int v = 0; v < mask.rows; ++v) {
+  const int right = std::min(mask.width(), frame.width - offset_px.x);
+  for (int v = 0; v < mask.height(); ++v) {
     const int image_v = v + offset_px.y;
     if (image_v < 0 || image_v >= frame.height) continue;
-    const std::uint8_t* lit = mask.ptr<std::uint8_t>(v);
+    const std::uint8_t* lit = mask.row(v);
     const float* from = frame.depth_m.data() + static_cast<std::size_t>(image_v) * frame.width;
-    float* to = depth.ptr<float>(v);
+    float* to = depth.row(v);
     for (int u = left; u < right; ++u) {
       const float z = from[u + offset_px.x];
       if (lit[u] != 0 && geometry::measured(z)) to[u] = z;
@@ -51,14 +52,14 @@ cv::Mat masked_depths(const cv::Mat& mask, cv::Point offset_px, const Frame& fra
 
 // Noise from second differences, the large ones left out: a slope has none, and a rope's roundness
 // next to none. A mean, for depths that come in coarse steps have a median of nothing.
-void measure_noise(const cv::Mat& depth, Depths& depths) {
+void measure_noise(const image::Image<float>& depth, Depths& depths) {
   constexpr float kKept = 0.75F;
   constexpr float kSigmas = 0.515F * 2.4495F;  // of the mean of those |a - 2 b + c|
   std::vector<float> bends;
   std::vector<float> values;
-  for (int v = 0; v < depth.rows; v += 3) {
-    const float* row = depth.ptr<float>(v);
-    for (int u = 1; u + 1 < depth.cols; u += 2) {
+  for (int v = 0; v < depth.height(); v += 3) {
+    const float* row = depth.row(v);
+    for (int u = 1; u + 1 < depth.width(); u += 2) {
       if (row[u - 1] <= 0 || row[u] <= 0 || row[u + 1] <= 0) continue;
       bends.push_back(std::abs(row[u - 1] - 2 * row[u] + row[u + 1]));
       values.push_back(row[u]);
@@ -75,20 +76,24 @@ void measure_noise(const cv::Mat& depth, Depths& depths) {
 
 Depths smooth_depths(const ValleyView& view, float sigma_px, const Frame& frame) {
   Depths depths;
-  cv::Mat depth = masked_depths(view.mask, view.offset_px, frame);
+  image::Image<float> depth = masked_depths(view.mask, view.offset_px, frame);
   measure_noise(depth, depths);
-  cv::Mat weight;
-  cv::Mat(depth > 0).convertTo(weight, CV_32F, 1.0 / 255);
-  cv::GaussianBlur(depth, depth, {}, sigma_px);
-  cv::GaussianBlur(weight, weight, {}, sigma_px);
-  depths.smooth_m = cv::Mat(view.mask.size(), CV_32F, cv::Scalar(kAbsent_m));
-  for (int v = 0; v < view.mask.rows; ++v) {
-    const std::uint8_t* lit = view.mask.ptr<std::uint8_t>(v);
-    const std::uint8_t* slit = view.closed.ptr<std::uint8_t>(v);
-    const float* sum = depth.ptr<float>(v);
-    const float* share = weight.ptr<float>(v);
-    float* to = depths.smooth_m.ptr<float>(v);
-    for (int u = 0; u < view.mask.cols; ++u) {
+  image::Image<float> weight(depth.size());
+  for (int v = 0; v < depth.height(); ++v) {
+    std::transform(depth.row(v), depth.row(v) + depth.width(), weight.row(v),
+                   [](float z) { return z > 0 ? 1.0F : 0.0F; });
+  }
+  const std::vector<float> taps = image::gaussian(image::taps_of(sigma_px), sigma_px);
+  depth = image::blurred(depth, taps, image::Beyond::kMirrored);
+  weight = image::blurred(weight, taps, image::Beyond::kMirrored);
+  depths.smooth_m = image::Image<float>(view.mask.size(), kAbsent_m);
+  for (int v = 0; v < view.mask.height(); ++v) {
+    const std::uint8_t* lit = view.mask.row(v);
+    const std::uint8_t* slit = view.closed.row(v);
+    const float* sum = depth.row(v);
+    const float* share = weight.row(v);
+    float* to = depths.smooth_m.row(v);
+    for (int u = 0; u < view.mask.width(); ++u) {
       if (lit[u] != 0 && share[u] > kLeastShare) to[u] = sum[u] / share[u];
       if (lit[u] == 0 && slit[u] != 0) to[u] = kSlit_m;
     }
@@ -105,7 +110,7 @@ struct Probe {
   float stride_px = 1;
 };
 
-cv::Point offset(float length_px, double angle) {
+image::Point offset(float length_px, double angle) {
   const auto length = static_cast<double>(length_px);
   return {static_cast<int>(std::lround(length * std::cos(angle))),
           static_cast<int>(std::lround(length * std::sin(angle)))};
@@ -113,13 +118,13 @@ cv::Point offset(float length_px, double angle) {
 
 // How much deeper each pixel of `box` is than both sides at +- `side`. Where one side is higher
 // than the other by more than a slope explains, there is a step, no valley.
-void deeper_than_sides(const cv::Mat& smooth_m, const cv::Rect& box, cv::Point side, float slope_m,
-                       cv::Mat& deeper_m) {
+void deeper_than_sides(const image::Image<float>& smooth_m, const image::Rect& box,
+                       image::Point side, float slope_m, image::Image<float>& deeper_m) {
   for (int v = box.y; v < box.y + box.height; ++v) {
-    const float* here = smooth_m.ptr<float>(v);
-    const float* one = smooth_m.ptr<float>(v - side.y) - side.x;
-    const float* other = smooth_m.ptr<float>(v + side.y) + side.x;
-    float* to = deeper_m.ptr<float>(v);
+    const float* here = smooth_m.row(v);
+    const float* one = smooth_m.row(v - side.y) - side.x;
+    const float* other = smooth_m.row(v + side.y) + side.x;
+    float* to = deeper_m.row(v);
     for (int u = box.x; u < box.x + box.width; ++u) {
       const float deeper = here[u] - 0.5F * (one[u] + other[u]);
       const float step = 0.5F * std::abs(one[u] - other[u]) - slope_m;
@@ -130,34 +135,32 @@ void deeper_than_sides(const cv::Mat& smooth_m, const cv::Rect& box, cv::Point s
 }
 
 // How much deeper each pixel of `box` is than its sides, in the direction where that is most.
-cv::Mat deepest(const cv::Mat& smooth_m, const cv::Rect& wide, const Probe& probe) {
+image::Image<float> deepest(const image::Image<float>& smooth_m, const image::Rect& wide,
+                            const Probe& probe) {
   const int far = static_cast<int>(std::ceil(probe.reach_px));
   const int along =
       static_cast<int>(std::ceil(probe.stride_px * static_cast<float>(probe.places / 2)));
-  const cv::Rect whole(far, far, smooth_m.cols - 2 * far, smooth_m.rows - 2 * far);
-  cv::Mat most = cv::Mat::zeros(smooth_m.size(), CV_32F);
-  cv::Mat deeper_m(smooth_m.size(), CV_32F, cv::Scalar(0));
-  const cv::Rect outer =
-      cv::Rect(wide.x - along, wide.y - along, wide.width + 2 * along, wide.height + 2 * along) &
-      whole;
-  const cv::Rect inner =
-      wide & cv::Rect(along, along, smooth_m.cols - 2 * along, smooth_m.rows - 2 * along);
+  const image::Rect whole = image::grown(image::all_of(smooth_m.size()), -far);
+  image::Image<float> most(smooth_m.size(), 0.0F);
+  image::Image<float> deeper_m(smooth_m.size(), 0.0F);
+  const image::Rect outer = image::grown(wide, along) & whole;
+  const image::Rect inner = wide & image::grown(image::all_of(smooth_m.size()), -along);
   for (int k = 0; k < kDirections; ++k) {
     const double angle = std::numbers::pi * k / kDirections;
     deeper_than_sides(smooth_m, outer, offset(probe.reach_px, angle), probe.slope_m, deeper_m);
     for (int v = inner.y; v < inner.y + inner.height; ++v) {
-      float* to = most.ptr<float>(v);
-      const float* from = deeper_m.ptr<float>(v);
+      float* to = most.row(v);
+      const float* from = deeper_m.row(v);
       if (probe.places == 1) {
         for (int u = inner.x; u < inner.x + inner.width; ++u) to[u] = std::max(to[u], from[u]);
         continue;
       }
-      const cv::Point near = offset(probe.stride_px, angle + 0.5 * std::numbers::pi);
-      const cv::Point next = offset(2 * probe.stride_px, angle + 0.5 * std::numbers::pi);
-      const float* a = deeper_m.ptr<float>(v - next.y) - next.x;
-      const float* b = deeper_m.ptr<float>(v - near.y) - near.x;
-      const float* c = deeper_m.ptr<float>(v + near.y) + near.x;
-      const float* d = deeper_m.ptr<float>(v + next.y) + next.x;
+      const image::Point near = offset(probe.stride_px, angle + 0.5 * std::numbers::pi);
+      const image::Point next = offset(2 * probe.stride_px, angle + 0.5 * std::numbers::pi);
+      const float* a = deeper_m.row(v - next.y) - next.x;
+      const float* b = deeper_m.row(v - near.y) - near.x;
+      const float* c = deeper_m.row(v + near.y) + near.x;
+      const float* d = deeper_m.row(v + next.y) + next.x;
       for (int u = inner.x; u < inner.x + inner.width; ++u) {
         to[u] = std::max(to[u], 0.2F * (a[u] + b[u] + from[u] + c[u] + d[u]));
       }
@@ -191,7 +194,14 @@ Valleys measure_valleys(const ValleyView& view, const Frame& frame) {
     valleys.noise_m /= std::sqrt(5.0F);
   }
   valleys.depth_m = deepest(depths.smooth_m, view.box, probe);
-  valleys.depth_m.setTo(0, (view.mask == 0) | (depths.smooth_m >= kAbsent_m));
+  for (int v = 0; v < view.mask.height(); ++v) {
+    const std::uint8_t* const lit = view.mask.row(v);
+    const float* const smooth_m = depths.smooth_m.row(v);
+    float* const depth_m = valleys.depth_m.row(v);
+    for (int u = 0; u < view.mask.width(); ++u) {
+      if (lit[u] == 0 || smooth_m[u] >= kAbsent_m) depth_m[u] = 0;
+    }
+  }
   return valleys;
 }
 

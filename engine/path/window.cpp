@@ -5,9 +5,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <numbers>
-#include <opencv2/imgproc.hpp>
 #include <utility>
 
+#include "image/masks.hpp"
+#include "image/resize.hpp"
 #include "path/limits.hpp"
 #include "path/strokes.hpp"
 
@@ -49,36 +50,30 @@ Path respaced(const Path& path, float pace) {
 }
 
 template <class Pixel>
-cv::Mat copied(std::span<const Pixel> pixels, int width, const cv::Rect& part, int type) {
-  cv::Mat copy(part.size(), type);
-  for (int v = 0; v < part.height; ++v) {
-    const auto row = static_cast<std::size_t>(part.y + v) * static_cast<std::size_t>(width);
-    const auto first = pixels.subspan(row + static_cast<std::size_t>(part.x),
-                                      static_cast<std::size_t>(part.width));
-    std::copy(first.begin(), first.end(), copy.ptr<Pixel>(v));
-  }
-  return copy;
+image::Image<Pixel> copied(std::span<const Pixel> pixels, const Frame& frame,
+                           const image::Rect& part) {
+  const image::Image<const Pixel> whole(pixels.data(), {frame.width, frame.height}, frame.width);
+  return whole.part(part).clone();
 }
 
 // What is reduced of a frame: whole pixels of the copy; the last few of the original may go.
-cv::Rect whole_pixels(const cv::Rect& box, int times, const cv::Size& frame) {
-  cv::Rect part = widened(box, kAroundReducedPx, frame);
+image::Rect whole_pixels(const image::Rect& box, int times, const image::Size& frame) {
+  image::Rect part = widened(box, kAroundReducedPx, frame);
   part.width = std::max(1, part.width / times) * times;
   part.height = std::max(1, part.height / times) * times;
-  return part & cv::Rect({0, 0}, frame);
+  return part & image::all_of(frame);
 }
 
 // The smallest divisor of its sides that leaves the box no more than so many pixels.
-int times_to_fit(const cv::Rect& box, int pixels) {
+int times_to_fit(const image::Rect& box, int pixels) {
   int times = 1;
   while (std::int64_t{box.width / times} * (box.height / times) > pixels) ++times;
   return times;
 }
 
-cv::Mat times_larger(const cv::Mat& image, int times) {
-  cv::Mat large;
-  cv::resize(image, large, image.size() * times, 0, 0, cv::INTER_NEAREST);
-  return large;
+template <class T>
+image::Image<T> times_larger(const image::Image<T>& given, int times) {
+  return image::nearest<T>(given, given.size() * times);
 }
 
 }  // namespace
@@ -95,7 +90,7 @@ Vector2f Window::place_of(const Vector2f& p) const {
   return scale * (p - first + kHalf) - kHalf;
 }
 
-void Window::restore(Path& path, const cv::Size& frame) const {
+void Window::restore(Path& path, const image::Size& frame) const {
   const Vector2f first{static_cast<float>(part.x), static_cast<float>(part.y)};
   const Vector2f last{static_cast<float>(frame.width - 1), static_cast<float>(frame.height - 1)};
   path.width_px /= scale;
@@ -105,12 +100,12 @@ void Window::restore(Path& path, const cv::Size& frame) const {
   path = respaced(path, 1 / scale);
 }
 
-void Window::restore(Traversals& traversals, const cv::Size& frame) const {
+void Window::restore(Traversals& traversals, const image::Size& frame) const {
   traversals.rope_width_px /= scale;
   for (Path& path : traversals.ranked) restore(path, frame);
 }
 
-void Window::restore(RopePaths& paths, const cv::Size& frame) const {
+void Window::restore(RopePaths& paths, const image::Size& frame) const {
   paths.rope_width_px /= scale;
   for (Path& path : paths.ropes) restore(path, frame);
   for (RopesGuess& guess : paths.guesses) {
@@ -118,50 +113,49 @@ void Window::restore(RopePaths& paths, const cv::Size& frame) const {
   }
 }
 
-cv::Mat mask_in(const Frame& frame, const cv::Rect& part) {
-  return copied(frame.mask, frame.width, part, CV_8U);
+image::Mask mask_in(const Frame& frame, const image::Rect& part) {
+  return copied(frame.mask, frame, part);
 }
 
-cv::Mat depth_in(const Frame& frame, const cv::Rect& part) {
-  return copied(frame.depth_m, frame.width, part, CV_32F);
+image::Image<float> depth_in(const Frame& frame, const image::Rect& part) {
+  return copied(frame.depth_m, frame, part);
 }
 
-cv::Mat instances_in(const Frame& frame, const cv::Rect& part) {
+image::Image<std::uint16_t> instances_in(const Frame& frame, const image::Rect& part) {
   if (frame.instances.empty()) return {};
-  return copied(frame.instances, frame.width, part, CV_16U);
+  return copied(frame.instances, frame, part);
 }
 
-Frame frame_of(const cv::Mat& mask, const cv::Mat& depth_m, const cv::Mat& instances,
-               const Intrinsics& camera) {
-  Frame frame{mask.cols,
-              mask.rows,
+Frame frame_of(const image::Mask& mask, const image::Image<float>& depth_m,
+               const image::Image<std::uint16_t>& instances, const Intrinsics& camera) {
+  Frame frame{mask.width(),
+              mask.height(),
               camera,
-              {depth_m.ptr<float>(), depth_m.total()},
-              {mask.ptr<std::uint8_t>(), mask.total()},
+              {depth_m.data(), depth_m.total()},
+              {mask.data(), mask.total()},
               {}};
-  if (!instances.empty()) frame.instances = {instances.ptr<std::uint16_t>(), instances.total()};
+  if (!instances.empty()) frame.instances = {instances.data(), instances.total()};
   return frame;
 }
 
-cv::Rect widened(const cv::Rect& box, int around_px, const cv::Size& frame) {
-  return cv::Rect(box.x - around_px, box.y - around_px, box.width + 2 * around_px,
-                  box.height + 2 * around_px) &
-         cv::Rect({0, 0}, frame);
+image::Rect widened(const image::Rect& box, int around_px, const image::Size& frame) {
+  return image::grown(box, around_px) & image::all_of(frame);
 }
 
 Rescaled::Rescaled(const Frame& original, const Window& window)
     : window_(window),
-      original_(original.width, original.height),
+      original_{original.width, original.height},
       camera_(window.camera(original.intrinsics)) {}
 
 Frame Rescaled::frame() const { return frame_of(mask_, depth_m_, instances_, camera_); }
 
 Magnified::Magnified(const Frame& frame, const Region& region, int times)
-    : Rescaled(frame, {widened({region.offset_px, region.mask.size()}, kAroundMagnifiedPx,
-                               {frame.width, frame.height}),
+    : Rescaled(frame, {widened({region.offset_px.x, region.offset_px.y, region.mask.width(),
+                                region.mask.height()},
+                               kAroundMagnifiedPx, {frame.width, frame.height}),
                        static_cast<float>(times)}) {
   region_ = magnified(region, times);
-  region_.offset_px = times * (region.offset_px - window_.part.tl());
+  region_.offset_px = times * (region.offset_px - window_.part.corner());
   depth_m_ = times_larger(depth_in(frame, window_.part), times);
   mask_ = times_larger(mask_in(frame, window_.part), times);
   if (frame.instances.empty()) return;
@@ -176,32 +170,35 @@ std::vector<std::vector<Vector2f>> Magnified::enlarged(
   return lines;
 }
 
-int reduction_of(const Frame& frame, const cv::Rect& box) {
+int reduction_of(const Frame& frame, const image::Rect& box) {
   const int least = times_to_fit(box, kMostTracedPixels);
   const int most = times_to_fit(box, kAlwaysTracedPixels);
   if (least == most) return least;
-  cv::Mat mask;
-  cv::copyMakeBorder(mask_in(frame, box) > 127, mask, 1, 1, 1, 1, cv::BORDER_CONSTANT, {});
-  mask &= 1;
+  image::Mask mask(image::grown(box, 1).size(), 0);
+  const image::Mask within = mask_in(frame, box);
+  for (int v = 0; v < box.height; ++v) {
+    std::transform(
+        within.row(v), within.row(v) + box.width, mask.row(v + 1) + 1,
+        [](std::uint8_t value) { return value > 127 ? std::uint8_t{1} : std::uint8_t{0}; });
+  }
   const std::int64_t length_px = stroke_length_px(mask);
   if (length_px > std::int64_t{kMostStrokeSides} * (frame.width + frame.height)) return most;
   // Along a diagonal a stroke is longer than it has border pixels.
   const float most_px = std::numbers::sqrt2_v<float> * static_cast<float>(length_px);
-  const float width_px = static_cast<float>(cv::countNonZero(mask)) / most_px;
+  const float width_px = static_cast<float>(image::count_set(mask)) / most_px;
   return std::clamp(static_cast<int>(width_px / kThickPx), least, most);
 }
 
-Reduced::Reduced(const Frame& frame, const cv::Rect& box, int times)
+Reduced::Reduced(const Frame& frame, const image::Rect& box, int times)
     : Rescaled(frame, {whole_pixels(box, times, {frame.width, frame.height}),
                        1 / static_cast<float>(times)}) {
-  const cv::Rect& part = window_.part;
-  const cv::Size size(std::max(1, part.width / times), std::max(1, part.height / times));
-  cv::threshold(mask_in(frame, part), mask_, 127, 255, cv::THRESH_BINARY);
-  cv::resize(mask_, mask_, size, 0, 0, cv::INTER_AREA);
-  cv::threshold(mask_, mask_, 127, 255, cv::THRESH_BINARY);
-  cv::resize(depth_in(frame, part), depth_m_, size, 0, 0, cv::INTER_NEAREST);
+  const image::Rect& part = window_.part;
+  const image::Size size{std::max(1, part.width / times), std::max(1, part.height / times)};
+  const image::Mask full = image::above(mask_in(frame, part), 127, 255);
+  mask_ = image::above(image::area_mean<std::uint8_t>(full, size), 127, 255);
+  depth_m_ = image::nearest<float>(depth_in(frame, part), size);
   if (frame.instances.empty()) return;
-  cv::resize(instances_in(frame, part), instances_, size, 0, 0, cv::INTER_NEAREST);
+  instances_ = image::nearest<std::uint16_t>(instances_in(frame, part), size);
 }
 
 }  // namespace flowdlo::path

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <opencv2/core.hpp>
 #include <vector>
 
 #include "flowdlo/frame.hpp"
@@ -12,8 +11,8 @@
 namespace flowdlo::path {
 
 struct Window {
-  cv::Rect part;    ///< of the frame, pixels
-  float scale = 1;  ///< pixels of the window for each of the frame
+  image::Rect part;  ///< of the frame, pixels
+  float scale = 1;   ///< pixels of the window for each of the frame
 
   /// Of the frame with that camera, seen through the window.
   [[nodiscard]] Intrinsics camera(const Intrinsics& frame) const;
@@ -23,24 +22,26 @@ struct Window {
 
   /// Brings what was traced in the window back to the pixels of a frame of that size: samples again
   /// about a pixel apart, widths in the frame's pixels.
-  void restore(Traversals& traversals, const cv::Size& frame) const;
-  void restore(RopePaths& paths, const cv::Size& frame) const;
+  void restore(Traversals& traversals, const image::Size& frame) const;
+  void restore(RopePaths& paths, const image::Size& frame) const;
 
  private:
-  void restore(Path& path, const cv::Size& frame) const;
+  void restore(Path& path, const image::Size& frame) const;
 };
 
 /// Copies of a part of a frame.
-[[nodiscard]] cv::Mat mask_in(const Frame& frame, const cv::Rect& part);
-[[nodiscard]] cv::Mat depth_in(const Frame& frame, const cv::Rect& part);
-[[nodiscard]] cv::Mat instances_in(const Frame& frame, const cv::Rect& part);  ///< or empty
+[[nodiscard]] image::Mask mask_in(const Frame& frame, const image::Rect& part);
+[[nodiscard]] image::Image<float> depth_in(const Frame& frame, const image::Rect& part);
+/// Empty where the frame has none.
+[[nodiscard]] image::Image<std::uint16_t> instances_in(const Frame& frame, const image::Rect& part);
 
 /// Views of the images, of one size and without padding; `instances` may be empty.
-[[nodiscard]] Frame frame_of(const cv::Mat& mask, const cv::Mat& depth_m, const cv::Mat& instances,
+[[nodiscard]] Frame frame_of(const image::Mask& mask, const image::Image<float>& depth_m,
+                             const image::Image<std::uint16_t>& instances,
                              const Intrinsics& camera);
 
 /// The rectangle of that frame around `box`, `around_px` wider on every side.
-[[nodiscard]] cv::Rect widened(const cv::Rect& box, int around_px, const cv::Size& frame);
+[[nodiscard]] image::Rect widened(const image::Rect& box, int around_px, const image::Size& frame);
 
 /// A copy of a part of a frame at another scale.
 class Rescaled {
@@ -62,11 +63,11 @@ class Rescaled {
   Rescaled(const Frame& original, const Window& window);
 
   Window window_;
-  cv::Size original_;
+  image::Size original_;
   Intrinsics camera_;
-  cv::Mat depth_m_;
-  cv::Mat mask_;
-  cv::Mat instances_;
+  image::Image<float> depth_m_;
+  image::Mask mask_;
+  image::Image<std::uint16_t> instances_;
 };
 
 /// At a whole multiple of its size, for ropes a few pixels wide.
@@ -88,21 +89,21 @@ class Magnified : public Rescaled {
 
 /// By how much a mask in that box is reduced to be traced; 1: not at all. A large box is traced in
 /// full only where its strokes are thin and no longer than a rope.
-[[nodiscard]] int reduction_of(const Frame& frame, const cv::Rect& box);
+[[nodiscard]] int reduction_of(const Frame& frame, const image::Rect& box);
 
 /// At a whole fraction of its size, for masks too large to be traced as they are.
 class Reduced : public Rescaled {
  public:
   /// Copies the box and what lies around it; `times` squared pixels become one, which is mask where
   /// half of them are.
-  Reduced(const Frame& frame, const cv::Rect& box, int times);
+  Reduced(const Frame& frame, const image::Rect& box, int times);
 };
 
 /// `trace(frame, null)`; of a mask that is too large to be traced as it is `trace(copy's frame,
 /// copy)`, brought back to the pixels of the frame.
 template <class Answer, class Trace>
 [[nodiscard]] Result<Answer> trace_reduced(const Frame& frame, const Trace& trace) {
-  const cv::Rect box = bounding_box(frame);
+  const image::Rect box = bounding_box(frame);
   const int times = reduction_of(frame, box);
   if (times == 1) return trace(frame, nullptr);
   const Reduced reduced(frame, box, times);

@@ -3,7 +3,7 @@
 #include <array>
 #include <opencv2/imgproc.hpp>
 
-#include "frame/png.hpp"
+#include "mat/mat_png.hpp"
 
 namespace flowdlo::eval {
 namespace {
@@ -65,6 +65,6 @@ void Canvas::legend(const Legend& entries, cv::Point at) {
 
 void Canvas::grid_line(cv::Point from, cv::Point to) { cv::line(picture_, from, to, kGrid); }
 
-Result<std::vector<std::uint8_t>> Canvas::png() const { return frame::encode_png(picture_); }
+Result<std::vector<std::uint8_t>> Canvas::png() const { return mat::encode_png(picture_); }
 
 }  // namespace flowdlo::eval

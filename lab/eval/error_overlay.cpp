@@ -7,7 +7,7 @@
 #include <opencv2/imgproc.hpp>
 #include <string>
 
-#include "frame/png.hpp"
+#include "mat/mat_png.hpp"
 
 namespace flowdlo::eval {
 namespace {
@@ -145,7 +145,7 @@ Result<std::vector<std::uint8_t>> error_overlay_png(const Frame& frame, const Ce
               kText, 1, cv::LINE_AA);
   cv::Mat legend = both.rowRange(picture.rows, both.rows);
   draw_legend(support, mean_distance_m(truth, nodes), legend);
-  return frame::encode_png(both);
+  return mat::encode_png(both);
 }
 
 }  // namespace flowdlo::eval

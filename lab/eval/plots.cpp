@@ -9,7 +9,7 @@
 #include <opencv2/imgproc.hpp>
 #include <string>
 
-#include "frame/png.hpp"
+#include "mat/mat_png.hpp"
 
 namespace flowdlo::eval {
 namespace {
@@ -108,7 +108,7 @@ Result<std::vector<std::uint8_t>> error_bars_png(std::span<const Trial> trials) 
     x += kGroupWidth;
   }
   draw_legend(picture);
-  return frame::encode_png(picture);
+  return mat::encode_png(picture);
 }
 
 Result<std::vector<std::uint8_t>> error_curve_png(std::span<const Trial> trials) {
@@ -140,7 +140,7 @@ Result<std::vector<std::uint8_t>> error_curve_png(std::span<const Trial> trials)
   }
   write(picture, "share of frames with an index error (Eq. 4.1) below", {kLeft, kTop - 8}, 0.42);
   draw_legend(picture);
-  return frame::encode_png(picture);
+  return mat::encode_png(picture);
 }
 
 }  // namespace flowdlo::eval

@@ -16,6 +16,7 @@
 #include "field/channel.hpp"
 #include "field/sight.hpp"
 #include "field/strand_field.hpp"
+#include "mat/mat_image.hpp"
 #include "path/path.hpp"
 #include "strand/measure.hpp"
 #include "strand/scene_range.hpp"
@@ -124,18 +125,18 @@ double true_width_px(const synth::SyntheticFrame& scene) {
 /// side; where places were missed they are marked.
 cv::Mat picture(const flowdlo::Frame& frame, const field::StrandField& seen) {
   const field::Sight sight = field::look(frame, seen.region);
-  const cv::Size size = seen.channels.size();
+  const cv::Size size = flowdlo::mat::size_of(seen.channels.size());
   cv::Mat result(size.height, 4 * size.width, CV_8UC3, cv::Scalar::all(0));
   const auto byte = [](float value) { return cv::saturate_cast<std::uint8_t>(255 * value); };
   for (int v = 0; v < size.height; ++v) {
     for (int u = 0; u < size.width; ++u) {
-      const float* const at = seen.channels.ptr<float>(v) + u * field::kChannels;
+      const auto& at = seen.channels.at(v, u);
       auto* const to = result.ptr<cv::Vec3b>(v) + u;
       if (!sight.color.empty()) {
-        const auto& c = sight.color.at<cv::Vec3f>(v, u);
+        const auto& c = sight.color.at(v, u);
         to[0] = {byte(c[0]), byte(c[1]), byte(c[2])};
       }
-      to[size.width] = cv::Vec3b::all(byte(sight.mask.at<float>(v, u)));
+      to[size.width] = cv::Vec3b::all(byte(sight.mask.at(v, u)));
       const float length = std::max(1e-3F, std::hypot(at[field::kCos], at[field::kSin]));
       const float centre = at[field::kCentre];
       to[2 * size.width] = {byte(centre * (0.5F + 0.5F * at[field::kCos] / length)),
@@ -169,11 +170,12 @@ flowdlo::Result<Outcome> measure(const Options& options, std::uint64_t index,
   if (!seen) return seen.error();
   outcome.ms = thread_ms() - begin_ms;
   const auto strands = strand::in_region(strand::strands_of(*scene), seen->region);
-  const cv::Mat mask = field::look(dropped.frame, seen->region).mask;
-  outcome.blocks = field::blocks_near(mask).blocks.size();
+  const auto looked = field::look(dropped.frame, seen->region);
+  const cv::Mat mask = flowdlo::mat::mat_over(looked.mask);
+  outcome.blocks = field::blocks_near(looked.mask).blocks.size();
   outcome.field =
       strand::measure(strands, mask, field::ridges(seen->channels), field::tips(seen->channels));
-  strand::measure_crossings(strands, seen->channels, outcome.field);
+  strand::measure_crossings(strands, flowdlo::mat::mat_over(seen->channels), outcome.field);
   outcome.thinning = strand::measure(strands, mask, strand::thinned(mask), {});
   if (drawn != nullptr) *drawn = picture(dropped.frame, *seen);
   return outcome;

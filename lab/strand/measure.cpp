@@ -7,6 +7,7 @@
 #include <unordered_map>
 
 #include "field/channel.hpp"
+#include "mat/mat_image.hpp"
 #include "path/thinning.hpp"
 #include "strand/targets.hpp"
 
@@ -256,7 +257,7 @@ std::vector<field::RidgePoint> thinned(const cv::Mat& mask) {
   cv::threshold(mask, binary, 0.5, 1, cv::THRESH_BINARY);
   binary.convertTo(binary, CV_8U);
   cv::copyMakeBorder(binary, binary, 1, 1, 1, 1, cv::BORDER_CONSTANT, cv::Scalar(0));
-  const cv::Mat skeleton = path::thin(binary);
+  const cv::Mat skeleton = mat::mat_of(path::thin(mat::image_of<std::uint8_t>(binary)));
   std::vector<field::RidgePoint> points;
   for (int v = 0; v < skeleton.rows; ++v) {
     for (int u = 0; u < skeleton.cols; ++u) {

@@ -21,6 +21,7 @@
 #include "field/strand_field.hpp"
 #include "geometry/camera.hpp"
 #include "geometry/polyline.hpp"
+#include "mat/mat_image.hpp"
 #include "path/strand_reading.hpp"
 #include "strand/measure.hpp"
 #include "strand/patch.hpp"
@@ -69,10 +70,10 @@ void draw(const std::filesystem::path& file, const field::StrandField& seen,
           const flowdlo::path::Path& path, const flowdlo::Centerline& truth,
           const flowdlo::Intrinsics& camera) {
   constexpr float kTimes = 2;
-  cv::Mat picture(seen.channels.size(), CV_8UC3);
+  cv::Mat picture(flowdlo::mat::size_of(seen.channels.size()), CV_8UC3);
   for (int v = 0; v < picture.rows; ++v) {
     for (int u = 0; u < picture.cols; ++u) {
-      const float* const at = seen.channels.ptr<float>(v) + u * field::kChannels;
+      const auto& at = seen.channels.at(v, u);
       const auto byte = [](float value) { return cv::saturate_cast<std::uint8_t>(120 * value); };
       picture.at<cv::Vec3b>(v, u) = {byte(at[field::kUnder]), byte(at[field::kTip]),
                                      byte(at[field::kCentre])};

@@ -7,6 +7,7 @@
 #include <random>
 #include <vector>
 
+#include "mat/mat_image.hpp"
 #include "strand/targets.hpp"
 
 namespace flowdlo::strand {
@@ -138,8 +139,22 @@ cv::Mat warped(const cv::Mat& image, const Placing& placing, int size_px) {
   return result;
 }
 
-field::Sight sight_of(const Patch& patch, const Placing& placing, int size_px) {
-  field::Sight sight;
+/// A field::Sight that OpenCV can change.
+struct Scene {
+  cv::Mat color;
+  cv::Mat mask;
+  cv::Mat depth_m;
+  cv::Mat inside;
+  float focal_px = 0;
+};
+
+field::Sight sight_of(const Scene& scene) {
+  return {mat::image_of<field::Color>(scene.color), mat::image_of<float>(scene.mask),
+          mat::image_of<float>(scene.depth_m), mat::image_of<float>(scene.inside), scene.focal_px};
+}
+
+Scene scene_of(const Patch& patch, const Placing& placing, int size_px) {
+  Scene sight;
   sight.focal_px = patch.focal_px * placing.scale;
   cv::Mat image;
   view_of(patch.height, patch.width, CV_8UC3, patch.color_bgr.data())
@@ -464,7 +479,7 @@ void spoil_color(const SpoilConfig& config, Dice& dice, cv::Mat& color) {
 
 // -- Depths -------------------------------------------------------------------------------------
 
-void spoil_depth(Dice& dice, field::Sight& sight) {
+void spoil_depth(Dice& dice, Scene& sight) {
   cv::Mat& depth = sight.depth_m;
   const cv::Mat none = depth <= 0;
   const cv::Scalar mean = cv::mean(depth, depth > 0);
@@ -520,7 +535,7 @@ Sample sample_of(const Patch& patch, int size_px, std::uint64_t seed, std::uint6
   const Placing placing = draw_placing(patch, size_px, config, dice);
   const auto strands = placed(patch.strands, placing);
   const Targets truth = targets_of(strands, patch.focal_px * placing.scale, {size_px, size_px});
-  field::Sight sight = sight_of(patch, placing, size_px);
+  Scene sight = scene_of(patch, placing, size_px);
   spoil_mask(strands, dice, sight.mask);
   const bool alone = dice.chance(config.mask_alone);
   if (alone || dice.chance(config.no_color)) {
@@ -535,7 +550,7 @@ Sample sample_of(const Patch& patch, int size_px, std::uint64_t seed, std::uint6
   } else {
     spoil_depth(dice, sight);
   }
-  Sample sample{field::input_of(sight), truth.field};
+  Sample sample{mat::mat_of(field::input_of(sight_of(sight))), truth.field};
   // Beyond the image nothing is known, and nothing is asked.
   for (int v = 0; v < size_px; ++v) {
     for (int u = 0; u < size_px; ++u) {

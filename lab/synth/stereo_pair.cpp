@@ -5,11 +5,14 @@
 #include <array>
 #include <cmath>
 #include <numeric>
-#include <opencv2/calib3d.hpp>
 #include <string_view>
 
 #include "synth/look.hpp"
 #include "synth/pixel_noise.hpp"
+
+#ifdef FLOWDLO_WITH_MATCHER
+#include <opencv2/calib3d.hpp>
+#endif
 
 namespace flowdlo::synth {
 namespace {
@@ -238,7 +241,9 @@ float exposure_of(std::vector<float> light) {
 }
 
 /// [rig.height, rig.width] pixels; 0 and below: none.
-cv::Mat disparities(const StereoRig& rig, const EyePicture& eyes, double nearest_m) {
+Result<std::vector<float>> disparities(const StereoRig& rig, const EyePicture& eyes,
+                                       double nearest_m) {
+#ifdef FLOWDLO_WITH_MATCHER
   const double most = rig.focal_px * rig.baseline_m / nearest_m;
   const int steps = 16 * static_cast<int>(std::ceil((most + 1) / 16));
   const auto image = [&](const std::vector<std::uint8_t>& of) {  // OpenCV has no view of constants
@@ -249,9 +254,23 @@ cv::Mat disparities(const StereoRig& rig, const EyePicture& eyes, double nearest
                                               10, kSpeckle_px, 1, cv::StereoSGBM::MODE_SGBM_3WAY);
   cv::Mat fixed;
   matcher->compute(image(eyes.left), image(eyes.right), fixed);
-  cv::Mat disparity;
-  fixed.convertTo(disparity, CV_32F, 1.0 / kSubpixels);
+  std::vector<float> disparity;
+  disparity.reserve(eyes.left.size());
+  for (int v = 0; v < rig.height; ++v) {
+    const auto* const row = fixed.ptr<std::int16_t>(v);
+    for (int u = 0; u < rig.width; ++u) {
+      disparity.push_back(static_cast<float>(row[u]) / static_cast<float>(kSubpixels));
+    }
+  }
   return disparity;
+#else
+  (void)rig;
+  (void)eyes;
+  (void)nearest_m;
+  return Error{ErrorCode::kBadInput,
+               "synth: matched depth: expected a build with OpenCV's calib3d, got one without; "
+               "install libopencv-calib3d-dev and build again"};
+#endif
 }
 
 }  // namespace
@@ -297,9 +316,10 @@ Result<EyePicture> infrared(const View& view, const StereoRig& rig, std::span<co
   return EyePicture{*std::move(left), *std::move(right)};
 }
 
-std::vector<float> matched(const View& view, const StereoRig& rig, const EyePicture& eyes,
-                           double nearest_m) {
-  const cv::Mat disparity = disparities(rig, eyes, nearest_m);
+Result<std::vector<float>> matched(const View& view, const StereoRig& rig, const EyePicture& eyes,
+                                   double nearest_m) {
+  const auto disparity = disparities(rig, eyes, nearest_m);
+  if (!disparity) return disparity.error();
   const int width = view.sensor->width;
   const int height = view.sensor->height;
   std::vector<float> depth_m(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
@@ -312,7 +332,7 @@ std::vector<float> matched(const View& view, const StereoRig& rig, const EyePict
   // Each pixel of the eye is a patch of the colour image, and the nearest patch shows.
   for (int v = 0; v < rig.height; ++v) {
     for (int u = 0; u < rig.width; ++u) {
-      const float d = disparity.at<float>(v, u);
+      const float d = (*disparity)[static_cast<std::size_t>(v * rig.width + u)];
       if (!(d > 0)) continue;
       const float z = scale / d;
       if (z > static_cast<float>(view.sensor->farthest_m)) continue;

@@ -43,8 +43,9 @@ struct EyePicture {
                                           std::span<const Rope> ropes,
                                           std::span<const Thing> things, Dice& dice);
 
-/// [height, width] of `view`, metres, 0: none. `nearest_m`: nothing is nearer.
-[[nodiscard]] std::vector<float> matched(const View& view, const StereoRig& rig,
-                                         const EyePicture& eyes, double nearest_m);
+/// [height, width] of `view`, metres, 0: none. `nearest_m`: nothing is nearer. Fails with kBadInput
+/// where FlowDLO was built without OpenCV's calib3d.
+[[nodiscard]] Result<std::vector<float>> matched(const View& view, const StereoRig& rig,
+                                                 const EyePicture& eyes, double nearest_m);
 
 }  // namespace flowdlo::synth

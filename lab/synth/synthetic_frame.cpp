@@ -234,8 +234,9 @@ Result<std::vector<float>> Scene::depth(const Render& render, Meta& meta) const 
   meta.camera += ", matched";
   float nearest_m = static_cast<float>(view.sensor->farthest_m);
   for (const float z : picture_.depth_m) nearest_m = z > 0 ? std::min(nearest_m, z) : nearest_m;
-  return spoiled_depth(view, picture_, stage_.ropes, stage_.faults.depth,
-                       matched(view, *rig, *eyes, 0.95 * static_cast<double>(nearest_m)),
+  auto depth_m = matched(view, *rig, *eyes, 0.95 * static_cast<double>(nearest_m));
+  if (!depth_m) return depth_m.error();
+  return spoiled_depth(view, picture_, stage_.ropes, stage_.faults.depth, *std::move(depth_m),
                        sensor.word());
 }
 

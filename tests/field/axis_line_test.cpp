@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <random>
 #include <vector>
 
 #include "field/channel.hpp"
@@ -35,7 +36,7 @@ float farthest(const AxisLine& line, const Curve& curve) {
 
 TEST(AxisLines, OneStrandIsOneLineFromEndToEnd) {
   const Curve curve = straight_axis({20, 30}, {130, 110});
-  cv::Mat field = painted_field({curve});
+  Channels field = painted_field({curve});
   show_tip(field, curve.front());
   const auto lines = axis_lines(field);
   ASSERT_EQ(lines.size(), 1U);
@@ -79,7 +80,7 @@ TEST(AxisLines, StrandsSideBySideAreLinesOfTheirOwn) {
 TEST(AxisLines, ARingIsClosedUnlessAnEndShows) {
   constexpr float kAround = 2 * std::numbers::pi_v<float>;
   const Curve ring = arc_axis({80, 80}, 50, 0, kAround);
-  cv::Mat field = painted_field({ring});
+  Channels field = painted_field({ring});
   const auto closed = axis_lines(field);
   ASSERT_EQ(closed.size(), 1U);
   EXPECT_TRUE(closed[0].closed);
@@ -95,7 +96,7 @@ TEST(AxisLines, ARingIsClosedUnlessAnEndShows) {
 }
 
 TEST(AxisLines, WhereTwoEndsTouchTheLineIsCut) {
-  cv::Mat field = painted_field({straight_axis({20, 80}, {140, 80})});
+  Channels field = painted_field({straight_axis({20, 80}, {140, 80})});
   show_tip(field, {90, 80});
   const auto lines = axis_lines(field);
   ASSERT_EQ(lines.size(), 2U);
@@ -125,14 +126,15 @@ TEST(AxisLines, ALineThatTurnsWhereAnotherOneComesCloseIsCutThere) {
   for (const AxisLine& line : lines) EXPECT_LT(length_of(line), 75);
 }
 
-TEST(AxisLines, AFieldOfNothingHasNone) {
-  EXPECT_TRUE(axis_lines(cv::Mat::zeros(64, 64, CV_32FC(kChannels))).empty());
-}
+TEST(AxisLines, AFieldOfNothingHasNone) { EXPECT_TRUE(axis_lines(Channels({64, 64}, {})).empty()); }
 
 TEST(AxisLines, AnyFieldEndsAndGivesTheSameLines) {
-  cv::Mat field(96, 96, CV_32FC(kChannels));
-  cv::RNG random(7);
-  random.fill(field, cv::RNG::UNIFORM, -1, 1);
+  Channels field({96, 96});
+  std::mt19937 random(7);
+  std::uniform_real_distribution<float> value(-1, 1);
+  for (std::size_t i = 0; i < field.total(); ++i) {
+    for (float& channel : field.data()[i]) channel = value(random);
+  }
   const auto first = axis_lines(field);
   const auto second = axis_lines(field);
   ASSERT_EQ(first.size(), second.size());

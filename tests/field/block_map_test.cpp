@@ -9,28 +9,28 @@ namespace {
 using testing::Each;
 using testing::ElementsAre;
 
-/// A mask of a spot of 12 x 12 px around the corner of four pixels.
-cv::Mat spot(int width, int height, int u, int v) {
-  cv::Mat mask = cv::Mat::zeros(height, width, CV_32F);
-  mask(cv::Rect(u - 6, v - 6, 12, 12)).setTo(1);
+/// A mask of a spot of 12 x 12 px around the corner of four pixels, which covers so much of each.
+image::Image<float> spot(int width, int height, int u, int v, float share = 1) {
+  image::Image<float> mask({width, height}, 0.0F);
+  mask.part({u - 6, v - 6, 12, 12}).fill(share);
   return mask;
 }
 
 TEST(BlockMap, EmptyMaskNeedsNoBlock) {
-  EXPECT_TRUE(blocks_near(cv::Mat::zeros(100, 200, CV_32F)).blocks.empty());
+  EXPECT_TRUE(blocks_near(image::Image<float>({200, 100}, 0.0F)).blocks.empty());
 }
 
 TEST(BlockMap, BlocksWithinAWidthAndAHalfOfTheMaskAreComputed) {
   const BlockMap map = blocks_near(spot(320, 96, 48, 48));  // the middle of a block
   EXPECT_EQ(map.columns, 10);
   EXPECT_EQ(map.rows, 3);
-  EXPECT_THAT(map.blocks, ElementsAre(cv::Point(0, 0), cv::Point(1, 0), cv::Point(2, 0),
-                                      cv::Point(0, 1), cv::Point(1, 1), cv::Point(2, 1),
-                                      cv::Point(0, 2), cv::Point(1, 2), cv::Point(2, 2)));
+  EXPECT_THAT(map.blocks, ElementsAre(image::Point{0, 0}, image::Point{1, 0}, image::Point{2, 0},
+                                      image::Point{0, 1}, image::Point{1, 1}, image::Point{2, 1},
+                                      image::Point{0, 2}, image::Point{1, 2}, image::Point{2, 2}));
 }
 
 TEST(BlockMap, HalfAPixelIsNoMask) {
-  EXPECT_TRUE(blocks_near(0.5 * spot(320, 96, 48, 48)).blocks.empty());
+  EXPECT_TRUE(blocks_near(spot(320, 96, 48, 48, 0.5F)).blocks.empty());
 }
 
 TEST(BlockMap, KnowsWhatLiesAround) {
@@ -42,8 +42,8 @@ TEST(BlockMap, KnowsWhatLiesAround) {
 
 TEST(BlockMap, CutKeepsPlacesAndNumbersAnew) {
   const BlockMap map = cut(blocks_near(spot(320, 96, 48, 48)), {1, 0, 2, 2});
-  EXPECT_THAT(map.blocks,
-              ElementsAre(cv::Point(1, 0), cv::Point(2, 0), cv::Point(1, 1), cv::Point(2, 1)));
+  EXPECT_THAT(map.blocks, ElementsAre(image::Point{1, 0}, image::Point{2, 0}, image::Point{1, 1},
+                                      image::Point{2, 1}));
   EXPECT_THAT(map.around(3), ElementsAre(0, 1, -1, 2, 3, -1, -1, -1, -1));
 }
 

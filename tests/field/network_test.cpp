@@ -6,6 +6,7 @@
 #include <random>
 
 #include "field/sight.hpp"
+#include "mat/mat_image.hpp"
 #include "reference/program.hpp"
 
 namespace flowdlo::field {
@@ -25,17 +26,19 @@ Network network_of(std::shared_ptr<const FieldWeights> weights, int threads = 1)
   return *std::move(made);
 }
 
-cv::Mat random_input(int width, int height) {
+Planes random_input(int width, int height) {
   std::mt19937 random(7);
   std::uniform_real_distribution<float> value(-1, 1);
-  cv::Mat input(height, width, CV_32FC(kPlanes));
-  for (int i = 0; i < width * height * kPlanes; ++i) input.ptr<float>()[i] = value(random);
+  Planes input({width, height});
+  for (std::size_t i = 0; i < input.total(); ++i) {
+    for (float& plane : input.data()[i]) plane = value(random);
+  }
   return input;
 }
 
 /// All blocks of a region.
-BlockMap everything(const cv::Mat& input) {
-  return blocks_near(cv::Mat::ones(input.size(), CV_32F));
+BlockMap everything(const Planes& input) {
+  return blocks_near(image::Image<float>(input.size(), 1.0F));
 }
 
 // -- The network once more, plainly, in double ----------------------------------------------------
@@ -109,13 +112,12 @@ Image added(const Image& fine, const Image& coarse) {
 }
 
 /// Places of the finest level: 48 channels before any sigmoid.
-Image plainly(const FieldWeights& w, const cv::Mat& input) {
-  Image x(input.cols / 2, input.rows / 2, weights::kFieldInputs);
-  for (int v = 0; v < input.rows; ++v) {
-    for (int u = 0; u < input.cols; ++u) {
+Image plainly(const FieldWeights& w, const Planes& input) {
+  Image x(input.width() / 2, input.height() / 2, weights::kFieldInputs);
+  for (int v = 0; v < input.height(); ++v) {
+    for (int u = 0; u < input.width(); ++u) {
       for (int c = 0; c < kPlanes; ++c) {
-        x.at(u / 2, v / 2, 4 * c + 2 * (v % 2) + u % 2) =
-            static_cast<double>(input.ptr<float>(v)[u * kPlanes + c]);
+        x.at(u / 2, v / 2, 4 * c + 2 * (v % 2) + u % 2) = static_cast<double>(input.at(v, u)[c]);
       }
     }
   }
@@ -131,6 +133,12 @@ Image plainly(const FieldWeights& w, const cv::Mat& input) {
                    convolved(w, "up_fine.1", convolved(w, "up_fine.0", whole, true), true), false);
 }
 
+/// The largest difference of any channel.
+double apart(const Channels& a, const Channels& b) {
+  return cv::norm(mat::mat_over(a), mat::mat_over(b), cv::NORM_INF);
+}
+double largest(const Channels& a) { return cv::norm(mat::mat_over(a), cv::NORM_INF); }
+
 double shown(int channel, double value) {
   const bool logit = channel == kCentre || channel == kTip || channel == kUnder ||
                      channel == kRope || channel == kEdge;
@@ -140,78 +148,77 @@ double shown(int channel, double value) {
 TEST(Network, IsTheUNetThatItsWeightsSay) {
   const auto weights = noise();
   auto network = network_of(weights);
-  const cv::Mat input = random_input(96, 64);  // 3 x 2 blocks
+  const Planes input = random_input(96, 64);  // 3 x 2 blocks
   const auto field = network.see(input, everything(input));
   ASSERT_TRUE(field) << field.error().message;
   const Image expected = plainly(*weights, input);
-  double largest = 0;
+  double most = 0;
   double worst = 0;
-  for (int v = 0; v < input.rows; ++v) {
-    for (int u = 0; u < input.cols; ++u) {
+  for (int v = 0; v < input.height(); ++v) {
+    for (int u = 0; u < input.width(); ++u) {
       for (int c = 0; c < kChannels; ++c) {
         const double want = shown(c, expected.get(u / 2, v / 2, 4 * c + 2 * (v % 2) + u % 2));
-        largest = std::max(largest, std::abs(want));
-        worst = std::max(
-            worst, std::abs(want - static_cast<double>(field->ptr<float>(v)[u * kChannels + c])));
+        most = std::max(most, std::abs(want));
+        worst = std::max(worst, std::abs(want - static_cast<double>(field->at(v, u)[c])));
       }
     }
   }
-  EXPECT_GT(largest, 0.5);
-  EXPECT_LT(worst / largest, 1e-4);
+  EXPECT_GT(most, 0.5);
+  EXPECT_LT(worst / most, 1e-4);
 }
 
 TEST(Network, ThreadsChangeNoBit) {
-  const cv::Mat input = random_input(160, 128);
+  const Planes input = random_input(160, 128);
   const auto one = network_of(noise(), 1).see(input, everything(input));
   for (const int threads : {2, 3}) {
     const auto more = network_of(noise(), threads).see(input, everything(input));
     ASSERT_TRUE(one && more);
-    EXPECT_EQ(cv::norm(*one, *more, cv::NORM_INF), 0) << threads;
+    EXPECT_EQ(apart(*one, *more), 0) << threads;
   }
 }
 
 TEST(Network, WhatIsFarFromTheMaskIsNoRope) {
-  const cv::Mat input = random_input(320, 64);
-  cv::Mat mask = cv::Mat::zeros(input.size(), CV_32F);
-  mask.at<float>(10, 10) = 1;
+  const Planes input = random_input(320, 64);
+  image::Image<float> mask(input.size(), 0.0F);
+  mask.at(10, 10) = 1;
   const auto field = network_of(noise()).see(input, blocks_near(mask));
   ASSERT_TRUE(field);
-  EXPECT_EQ(cv::norm((*field)(cv::Rect(128, 0, 192, 64)), cv::NORM_INF), 0);
-  EXPECT_GT(cv::norm((*field)(cv::Rect(0, 0, 32, 32)), cv::NORM_INF), 0.1);
+  EXPECT_EQ(largest(field->part({128, 0, 192, 64})), 0);
+  EXPECT_GT(largest(field->part({0, 0, 32, 32})), 0.1);
 }
 
 TEST(Network, ALargerRegionMakesItGrowAndASmallerOneComesAsBefore) {
   auto network = network_of(noise());
-  const cv::Mat small = random_input(96, 64);
-  const cv::Mat large = random_input(416, 320);  // 130 blocks
+  const Planes small = random_input(96, 64);
+  const Planes large = random_input(416, 320);  // 130 blocks
   const auto before = network.see(small, everything(small));
   ASSERT_TRUE(network.see(large, everything(large)));
   const auto after = network.see(small, everything(small));
   ASSERT_TRUE(before && after);
-  EXPECT_EQ(cv::norm(*before, *after, cv::NORM_INF), 0);
+  EXPECT_EQ(apart(*before, *after), 0);
 }
 
 TEST(Network, SizesThatAreNoMultipleOfABlockAreSeenToTheirEnd) {
-  const cv::Mat input = random_input(75, 43);
+  const Planes input = random_input(75, 43);
   const auto field = network_of(noise()).see(input, everything(input));
   ASSERT_TRUE(field);
   EXPECT_EQ(field->size(), input.size());
-  EXPECT_GT(cv::norm((*field)(cv::Rect(74, 42, 1, 1)), cv::NORM_INF), 0);
+  EXPECT_GT(largest(field->part({74, 42, 1, 1})), 0);
 }
 
 TEST(Network, MoreThanFitsOneRunComesInPartsWithoutASeam) {
   auto network = network_of(noise({16, 16, 16}), 2);
-  const cv::Mat input = random_input(35 * kBlock_px, 33 * kBlock_px);  // 1155 blocks
+  const Planes input = random_input(35 * kBlock_px, 33 * kBlock_px);  // 1155 blocks
   const auto field = network.see(input, everything(input));
   ASSERT_TRUE(field) << field.error().message;
   // Around the seam, seen in one run with all that matters around it.
-  const cv::Rect around(11 * kBlock_px, 4 * kBlock_px, 13 * kBlock_px, 12 * kBlock_px);
-  const cv::Mat part = input(around).clone();
+  const image::Rect around{11 * kBlock_px, 4 * kBlock_px, 13 * kBlock_px, 12 * kBlock_px};
+  const Planes part = input.part(around).clone();
   const auto alone = network.see(part, everything(part));
   ASSERT_TRUE(alone);
-  const cv::Rect inner(3 * kBlock_px, 3 * kBlock_px, 7 * kBlock_px, 6 * kBlock_px);
+  const image::Rect inner{3 * kBlock_px, 3 * kBlock_px, 7 * kBlock_px, 6 * kBlock_px};
   // Tiles of a convolution round as what lies in them does, and part of it is beyond the halo.
-  EXPECT_LT(cv::norm((*field)(around)(inner), (*alone)(inner), cv::NORM_INF), 1e-4);
+  EXPECT_LT(apart(field->part(around).part(inner), alone->part(inner)), 1e-4);
 }
 
 }  // namespace

@@ -5,7 +5,7 @@
 namespace flowdlo::field {
 namespace {
 
-const cv::Size kFrame(640, 480);
+const image::Size kFrame{640, 480};
 
 TEST(Region, RopeIsEightPixelsWide) {
   const Region region = region_around({200, 150, 100, 80}, kFrame, 4);
@@ -15,12 +15,12 @@ TEST(Region, RopeIsEightPixelsWide) {
 
 TEST(Region, HoldsTheMaskAndThreeWidthsAround) {
   const Region region = region_around({200, 150, 100, 80}, kFrame, 4);
-  EXPECT_EQ(region.box, cv::Rect(184, 134, 132, 112));
+  EXPECT_EQ(region.box, (image::Rect{184, 134, 132, 112}));
 }
 
 TEST(Region, EndsWithTheImage) {
   const Region region = region_around({0, 470, 640, 10}, kFrame, 20);
-  EXPECT_EQ(region.box, cv::Rect(0, 406, 640, 74));
+  EXPECT_EQ(region.box, (image::Rect{0, 406, 640, 74}));
 }
 
 TEST(Region, AHairIsMagnifiedFourTimesAndNoMore) {

@@ -11,15 +11,15 @@ namespace flowdlo::field {
 namespace {
 
 /// A perfect field of a straight strand through `middle`.
-cv::Mat straight(float angle, const Eigen::Vector2f& middle) {
-  cv::Mat field = cv::Mat::zeros(64, 64, CV_32FC(kChannels));
-  for (int v = 0; v < field.rows; ++v) {
-    for (int u = 0; u < field.cols; ++u) {
+Channels straight(float angle, const Eigen::Vector2f& middle) {
+  Channels field({64, 64}, {});
+  for (int v = 0; v < field.height(); ++v) {
+    for (int u = 0; u < field.width(); ++u) {
       const Eigen::Vector2f off =
           Eigen::Vector2f(static_cast<float>(u), static_cast<float>(v)) - middle;
       const float across = off.dot(Eigen::Vector2f(-std::sin(angle), std::cos(angle)));
       const float near = across / (kCentreWidths * kRope_px);
-      float* const at = field.ptr<float>(v) + u * kChannels;
+      auto& at = field.at(v, u);
       at[kCentre] = std::exp(-near * near);
       at[kCos] = std::cos(2 * angle);
       at[kSin] = std::sin(2 * angle);
@@ -43,16 +43,16 @@ TEST(Ridge, LiesOnTheAxisWithinAnEighthOfAPixelInEveryDirection) {
 }
 
 TEST(Ridge, WhatIsFaintIsNone) {
-  cv::Mat field = straight(0.4F, {32, 32});
-  field *= 0.3;
+  Channels field = straight(0.4F, {32, 32});
+  for (std::size_t i = 0; i < field.total(); ++i) {
+    for (float& channel : field.data()[i]) channel *= 0.3F;
+  }
   EXPECT_TRUE(ridges(field).empty());
 }
 
 TEST(Tips, OneAPeakHoweverFlat) {
-  cv::Mat field = cv::Mat::zeros(64, 64, CV_32FC(kChannels));
-  const auto tip = [&](int u, int v) -> float& {
-    return field.ptr<float>(v)[u * kChannels + kTip];
-  };
+  Channels field({64, 64}, {});
+  const auto tip = [&](int u, int v) -> float& { return field.at(v, u)[kTip]; };
   for (int v = 20; v < 23; ++v) {
     for (int u = 30; u < 33; ++u) tip(u, v) = 0.9F;
   }

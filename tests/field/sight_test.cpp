@@ -34,16 +34,14 @@ struct Scene {
   [[nodiscard]] Frame frame() const {
     return {kWidth, kHeight, {500, 500, 48, 32}, depth_m, mask, color};
   }
-  [[nodiscard]] cv::Mat input(const Frame& frame) const {
+  [[nodiscard]] Planes input(const Frame& frame) const {
     return input_of(look(frame, region_around({0, 28, kWidth, 8}, {kWidth, kHeight}, 8)));
   }
   /// Above the table; the rope is 8 mm wide at half a metre.
   static constexpr float kHeight_m = 0.008F;
 };
 
-float at(const cv::Mat& input, int u, int v, Plane plane) {
-  return input.ptr<float>(v)[u * kPlanes + plane];
-}
+float at(const Planes& input, int u, int v, Plane plane) { return input.at(v, u)[plane]; }
 
 // The region begins at row 28 - 28, so that its rows are the frame's.
 constexpr int kRopeRow = 32;
@@ -51,7 +49,7 @@ constexpr int kTableRow = 10;
 
 TEST(Sight, ColorsAreThoseOfTheRopeLessTheRopes) {
   const Scene scene;
-  const cv::Mat input = scene.input(scene.frame());
+  const Planes input = scene.input(scene.frame());
   for (const Plane plane : {kBlue, kGreen, kRed}) {
     EXPECT_NEAR(at(input, 40, kRopeRow, plane), 0, 1e-5F);
   }
@@ -64,7 +62,7 @@ TEST(Sight, AGreyOrColorlessCameraLeavesTheColorsOut) {
   const Scene scene;
   Frame frame = scene.frame();
   frame.color_bgr = {};
-  const cv::Mat input = scene.input(frame);
+  const Planes input = scene.input(frame);
   for (const Plane plane : {kBlue, kGreen, kRed, kHasColor}) {
     EXPECT_EQ(at(input, 40, kTableRow, plane), 0);
   }
@@ -83,19 +81,22 @@ TEST(Sight, BlocksOnTheirOwnAreThoseOfTheWhole) {
   const Scene scene;
   const Frame frame = scene.frame();
   const Sight sight = look(frame, region_around({0, 28, 30, 8}, {96, 64}, 8));
-  const cv::Mat whole = input_of(sight);
+  const Planes whole = input_of(sight);
   const BlockMap blocks = blocks_near(sight.mask);
-  const cv::Mat parts = input_of(sight, blocks);
+  const Planes parts = input_of(sight, blocks);
   ASSERT_FALSE(blocks.blocks.empty());
-  for (const cv::Point& block : blocks.blocks) {
-    const cv::Rect pixels = pixels_of(block) & cv::Rect({0, 0}, whole.size());
-    EXPECT_EQ(cv::norm(whole(pixels), parts(pixels), cv::NORM_INF), 0);
+  for (const image::Point& block : blocks.blocks) {
+    const image::Rect pixels = pixels_of(block) & image::all_of(whole.size());
+    for (int v = pixels.y; v < pixels.y + pixels.height; ++v) {
+      EXPECT_TRUE(std::equal(whole.row(v) + pixels.x, whole.row(v) + pixels.x + pixels.width,
+                             parts.row(v) + pixels.x));
+    }
   }
 }
 
 TEST(Sight, DepthIsThatOfTheRopeAroundInUnitsOfTwoWidths) {
   const Scene scene;
-  const cv::Mat input = scene.input(scene.frame());
+  const Planes input = scene.input(scene.frame());
   // Eight pixels at 0.54 m and 500 px are 8.6 mm; the table lies 8 mm behind the rope.
   EXPECT_NEAR(at(input, 48, kRopeRow, kDepth), 0, 0.05F);
   EXPECT_NEAR(at(input, 48, kTableRow, kDepth), 0.008F / (2 * 8 * 0.54F / 500), 0.03F);
@@ -113,7 +114,7 @@ TEST(Sight, NoDepthIsNoDepthWhateverStandsForIt) {
   scene.depth_m[pixel(50, kTableRow)] = std::numeric_limits<float>::quiet_NaN();
   scene.depth_m[pixel(60, kTableRow)] = std::numeric_limits<float>::infinity();
   scene.depth_m[pixel(70, kTableRow)] = -1;
-  const cv::Mat input = scene.input(scene.frame());
+  const Planes input = scene.input(scene.frame());
   for (const int u : {40, 50, 60, 70}) {
     EXPECT_EQ(at(input, u, kTableRow, kHasDepth), 0) << u;
     EXPECT_EQ(at(input, u, kTableRow, kDepth), 0) << u;
@@ -124,7 +125,7 @@ TEST(Sight, NoDepthIsNoDepthWhateverStandsForIt) {
 TEST(Sight, WithoutAnyDepthOnTheRopeThereIsNoneToCompareWith) {
   Scene scene;
   scene.depth_m.assign(scene.depth_m.size(), 0);
-  const cv::Mat input = scene.input(scene.frame());
+  const Planes input = scene.input(scene.frame());
   EXPECT_EQ(at(input, 40, kTableRow, kHasDepth), 0);
   EXPECT_EQ(at(input, 40, kRopeRow, kMask), 1);
 }
@@ -132,17 +133,16 @@ TEST(Sight, WithoutAnyDepthOnTheRopeThereIsNoneToCompareWith) {
 TEST(Sight, NothingOfItIsLargeOrNoNumber) {
   Scene scene;
   for (std::size_t i = 0; i < scene.depth_m.size(); i += 7) scene.depth_m[i] = 1e30F;
-  const cv::Mat input = scene.input(scene.frame());
-  for (int i = 0; i < input.rows * input.cols * kPlanes; ++i) {
-    ASSERT_LE(std::abs(input.ptr<float>()[i]), 3);
+  const Planes input = scene.input(scene.frame());
+  for (std::size_t i = 0; i < input.total(); ++i) {
+    for (const float value : input.data()[i]) ASSERT_LE(std::abs(value), 3);
   }
 }
 
 TEST(Sight, SmallerAndLargerRopesLookTheSame) {
   // The same rope seen by a camera of twice the resolution, resampled to the same region.
   const Scene scene;
-  const cv::Mat small = scene.input(scene.frame());
-  cv::Mat depth(Scene::kHeight, Scene::kWidth, CV_32F, const_cast<float*>(scene.depth_m.data()));
+  const Planes small = scene.input(scene.frame());
   std::vector<float> depth_m;
   std::vector<std::uint8_t> mask;
   std::vector<std::uint8_t> color;
@@ -156,13 +156,13 @@ TEST(Sight, SmallerAndLargerRopesLookTheSame) {
   }
   const Frame frame{
       2 * Scene::kWidth, 2 * Scene::kHeight, {1000, 1000, 96.5F, 64.5F}, depth_m, mask, color};
-  const cv::Mat large =
+  const Planes large =
       input_of(look(frame, region_around({0, 56, 2 * Scene::kWidth, 16},
                                          {2 * Scene::kWidth, 2 * Scene::kHeight}, 16)));
-  ASSERT_EQ(large.cols, small.cols);
+  ASSERT_EQ(large.width(), small.width());
   for (const int v : {20, 24, kRopeRow}) {
     for (int plane = 0; plane < kPlanes; ++plane) {
-      const int lower = v + (large.rows - small.rows) / 2;
+      const int lower = v + (large.height() - small.height()) / 2;
       EXPECT_NEAR(at(large, 48, lower, static_cast<Plane>(plane)),
                   at(small, 48, v, static_cast<Plane>(plane)), 0.05F)
           << "row " << v << " plane " << plane;

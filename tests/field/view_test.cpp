@@ -21,7 +21,7 @@ StrandField seen() {
   show_tip(field.channels, {140, 60});
   for (int v = 56; v <= 64; ++v) {
     for (int u = 78; u <= 82; ++u) {
-      float* const at = field.channels.ptr<float>(v) + u * kChannels;
+      auto& at = field.channels.at(v, u);
       at[kUnder] = 1;
       at[kUnderCos] = -1;
       at[kUnderSin] = 0;

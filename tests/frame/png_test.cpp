@@ -8,6 +8,7 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 
+#include "mat/mat_png.hpp"
 #include "support/peak_memory.hpp"
 
 namespace flowdlo::frame {
@@ -23,7 +24,7 @@ cv::Mat gradient(int type) {
 }
 
 std::vector<std::uint8_t> encoded(int type) {
-  auto bytes = encode_png(gradient(type));
+  auto bytes = mat::encode_png(gradient(type));
   EXPECT_TRUE(bytes);
   return *bytes;
 }
@@ -60,7 +61,7 @@ std::vector<std::uint8_t> packed_text(const std::string& head, std::size_t count
 }
 
 std::string fault_of(const std::vector<std::uint8_t>& bytes) {
-  const auto image = decode_png(bytes, "a.png");
+  const auto image = mat::decode_png(bytes, "a.png");
   if (image) return "";
   EXPECT_EQ(image.error().code, ErrorCode::kBadInput);
   EXPECT_THAT(image.error().message, testing::StartsWith("a.png: "));
@@ -69,7 +70,7 @@ std::string fault_of(const std::vector<std::uint8_t>& bytes) {
 
 TEST(Png, EveryKindReadsBackAsStored) {
   for (const int type : {CV_8UC1, CV_8UC3, CV_8UC4, CV_16UC1, CV_16UC3}) {
-    const auto image = decode_png(encoded(type), "a.png");
+    const auto image = mat::decode_png(encoded(type), "a.png");
     ASSERT_TRUE(image) << image.error().message;
     ASSERT_EQ(image->type(), type);
     EXPECT_EQ(cv::norm(*image, gradient(type), cv::NORM_INF), 0);
@@ -89,7 +90,7 @@ TEST(Png, OneBitAPixelBecomesEight) {
   const cv::Mat stripes = gradient(CV_8UC1) > 127;
   cv::imencode(".png", stripes, bytes, {cv::IMWRITE_PNG_BILEVEL, 1});
 
-  const auto image = decode_png(bytes, "a.png");
+  const auto image = mat::decode_png(bytes, "a.png");
 
   ASSERT_TRUE(image) << image.error().message;
   ASSERT_EQ(image->type(), CV_8UC1);
@@ -97,8 +98,8 @@ TEST(Png, OneBitAPixelBecomesEight) {
 }
 
 TEST(Png, ImageOfFloatsIsNotWritten) {
-  EXPECT_FALSE(encode_png(cv::Mat::zeros(2, 2, CV_32FC1)));
-  EXPECT_FALSE(encode_png(cv::Mat()));
+  EXPECT_FALSE(mat::encode_png(cv::Mat::zeros(2, 2, CV_32FC1)));
+  EXPECT_FALSE(mat::encode_png(cv::Mat()));
 }
 
 TEST(Png, CutShortAnywhereIsRefused) {
@@ -125,7 +126,7 @@ TEST(Png, OtherFilesAreNamedAsSuch) {
 
 TEST(Png, TransparentGreyStaysGrey) {
   for (const int type : {CV_8UC1, CV_16UC1}) {
-    const auto image = decode_png(with_chunk(encoded(type), "tRNS", {0, 7}), "a.png");
+    const auto image = mat::decode_png(with_chunk(encoded(type), "tRNS", {0, 7}), "a.png");
     ASSERT_TRUE(image) << image.error().message;
     ASSERT_EQ(image->type(), type);
     EXPECT_EQ(cv::norm(*image, gradient(type), cv::NORM_INF), 0);
@@ -141,7 +142,7 @@ TEST(Png, WhatIsNoPixelIsNotUnpacked) {
        {std::pair{"zTXt", text_head}, std::pair{"iTXt", international_head}}) {
     const auto bytes = with_chunk(encoded(CV_8UC1), type, packed_text(head, kUnpacked), kChunks);
     const double grown_mb = test::peak_growth_mb([&] {
-      const auto image = decode_png(bytes, "a.png");
+      const auto image = mat::decode_png(bytes, "a.png");
       ASSERT_TRUE(image) << image.error().message;
       EXPECT_EQ(cv::norm(*image, gradient(CV_8UC1), cv::NORM_INF), 0);
     });
@@ -150,7 +151,7 @@ TEST(Png, WhatIsNoPixelIsNotUnpacked) {
 }
 
 TEST(Png, SidesBeyondTheLimitAreRefused) {
-  const auto bytes = encode_png(cv::Mat::zeros(1, 4097, CV_8UC1));
+  const auto bytes = mat::encode_png(cv::Mat::zeros(1, 4097, CV_8UC1));
   ASSERT_TRUE(bytes);
   EXPECT_THAT(fault_of(*bytes), HasSubstr("expected sides of 1 to 4096 px, got 4097 x 1"));
 }

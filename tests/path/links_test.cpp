@@ -28,7 +28,7 @@ struct Crossing : test::Seen {
   void show_below(const cv::Point& from, const cv::Point& to, float cosine, float sine) {
     for (int v = from.y; v <= to.y; ++v) {
       for (int u = from.x; u <= to.x; ++u) {
-        float* const at = field.channels.ptr<float>(v) + u * field::kChannels;
+        auto& at = field.channels.at(v, u);
         at[field::kUnder] = 1;
         at[field::kUnderCos] = cosine;
         at[field::kUnderSin] = sine;
@@ -107,7 +107,7 @@ TEST(Links, OverBareBackgroundCosts) {
   crossing.canvas.mask(bare).setTo(0);
   cv::Mat depth_m(crossing.canvas.mask.size(), CV_32F, crossing.canvas.depth_m.data());
   depth_m(bare).setTo(0.8F);
-  crossing.field.channels.setTo(0);
+  crossing.field.channels.fill({});
   EXPECT_GT(across(crossing, 89, 114)[kLinkOpen], 0.9F);
 }
 

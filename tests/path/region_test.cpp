@@ -8,15 +8,15 @@ namespace flowdlo::test {
 namespace {
 
 std::uint8_t at(const path::Region& region, int u, int v) {
-  return region.mask.at<std::uint8_t>(v - region.offset_px.y, u - region.offset_px.x);
+  return region.mask.at(v - region.offset_px.y, u - region.offset_px.x);
 }
 
 TEST(Region, IsAsLargeAsTheMasksBoundingBox) {
   const Canvas canvas = Canvas().stroke({{200, 150}, {300, 150}}, 9);
   const auto region = path::clean(canvas.frame());
   ASSERT_TRUE(region);
-  EXPECT_LT(region->mask.cols, 120);
-  EXPECT_LT(region->mask.rows, 20);
+  EXPECT_LT(region->mask.width(), 120);
+  EXPECT_LT(region->mask.height(), 20);
   EXPECT_EQ(at(*region, 250, 150), 1);
 }
 

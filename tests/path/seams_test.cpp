@@ -8,6 +8,7 @@
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
+#include "mat/mat_image.hpp"
 #include "path/region.hpp"
 #include "random/philox.hpp"
 #include "scene/scene.hpp"
@@ -45,7 +46,8 @@ struct Picture {
   }
   [[nodiscard]] cv::Mat seams() const {
     const float width_px = 16;
-    return path::find_seams(mask, {{0, 0}, width_px, width_px}, frame());
+    return mat::mat_of(
+        path::find_seams(mat::image_of<std::uint8_t>(mask), {{0, 0}, width_px, width_px}, frame()));
   }
 };
 
@@ -131,7 +133,7 @@ TEST(Seams, AreFoundWhereNothingShowsHowWideOneRopeIs) {
   picture.mask *= 255;
   const auto region = path::clean(picture.frame());
   ASSERT_TRUE(region);
-  EXPECT_EQ(components(region->mask, {}), 3);
+  EXPECT_EQ(components(mat::mat_over(region->mask), {}), 3);
   EXPECT_NEAR(region->width_px, 16, 3);
 }
 
@@ -192,8 +194,9 @@ TEST(Seams, OutliveTheFilterOfARaggedMask) {
   const auto region = path::clean(scene.frame());
   ASSERT_TRUE(region);
   const path::Region filtered = path::smoothed(*region, 7);
-  EXPECT_EQ(cv::countNonZero(filtered.mask & filtered.seams), 0);
-  EXPECT_GT(cv::countNonZero(filtered.seams), 500);
+  const cv::Mat seams = mat::mat_over(filtered.seams);
+  EXPECT_EQ(cv::countNonZero(mat::mat_over(filtered.mask) & seams), 0);
+  EXPECT_GT(cv::countNonZero(seams), 500);
 }
 
 }  // namespace

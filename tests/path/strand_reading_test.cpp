@@ -78,7 +78,7 @@ TEST(StrandReading, WhatIsNoMaskIsNoRope) {
 
 TEST(StrandReading, WithoutAnyStrandTheMasksLongAxisIsLeft) {
   Seen seen({straight_axis({30, 60}, {280, 60})});
-  seen.field.channels.setTo(0);
+  seen.field.channels.fill({});
   const auto traced = seen.traced();
   ASSERT_TRUE(traced) << traced.error().message;
   EXPECT_GT(traced->ranked.front().points_px.size(), 200U);

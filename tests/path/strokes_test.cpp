@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "canvas.hpp"
+#include "mat/mat_image.hpp"
 #include "path/limits.hpp"
 #include "path/path.hpp"
 
@@ -25,47 +26,52 @@ cv::Mat noise(int percent) {
 
 cv::Mat rope(int width_px) { return Canvas().stroke({{60, 100}, {560, 380}}, width_px).mask / 255; }
 
+std::int64_t length_of(const cv::Mat& mask) {
+  return path::stroke_length_px(mat::image_of<std::uint8_t>(mask));
+}
+Result<path::Strokes> strokes_in(const cv::Mat& mask, const image::Size& size, int ropes = 1) {
+  return path::strokes_of(mat::image_of<std::uint8_t>(mask), size, ropes);
+}
+
 TEST(StrokeLength, OfOneStrokeIsItsLengthWhateverItsWidth) {
   const double length_px = std::hypot(500, 280);
   for (const int width_px : {5, 9, 21}) {
-    EXPECT_NEAR(static_cast<double>(path::stroke_length_px(rope(width_px))), length_px,
+    EXPECT_NEAR(static_cast<double>(length_of(rope(width_px))), length_px,
                 0.2 * length_px + width_px);
   }
 }
 
-TEST(StrokeLength, OfNoiseIsFarBeyondAnyRopes) {
-  EXPECT_GT(path::stroke_length_px(noise(50)), 2 * kMost);
-}
+TEST(StrokeLength, OfNoiseIsFarBeyondAnyRopes) { EXPECT_GT(length_of(noise(50)), 2 * kMost); }
 
 TEST(Strokes, OfARopeAreTheMaskItself) {
   const cv::Mat mask = rope(9);
-  const auto strokes = path::strokes_of(mask, {640, 480});
+  const auto strokes = strokes_in(mask, {640, 480});
   ASSERT_TRUE(strokes);
-  EXPECT_EQ(cv::countNonZero(strokes->mask != mask), 0);
+  EXPECT_EQ(cv::countNonZero(mat::mat_over(strokes->mask) != mask), 0);
   EXPECT_FALSE(strokes->filtered);
 }
 
 TEST(Strokes, OfARopeUnderNoiseAreTheRopes) {
   cv::Mat mask = noise(30);
   mask |= rope(21);
-  ASSERT_GT(path::stroke_length_px(mask), kMost) << "else nothing is filtered";
-  const auto strokes = path::strokes_of(mask, {640, 480});
+  ASSERT_GT(length_of(mask), kMost) << "else nothing is filtered";
+  const auto strokes = strokes_in(mask, {640, 480});
   ASSERT_TRUE(strokes) << strokes.error().message;
   EXPECT_TRUE(strokes->filtered);
   EXPECT_LE(path::stroke_length_px(strokes->mask), kMost);
   const cv::Mat core = rope(9);
-  EXPECT_GT(cv::countNonZero(strokes->mask & core), 0.95 * cv::countNonZero(core));
+  EXPECT_GT(cv::countNonZero(mat::mat_over(strokes->mask) & core), 0.95 * cv::countNonZero(core));
 }
 
 TEST(Strokes, OfCablesFromEdgeToEdgeAreThoseOfSeveralRopesOnly) {
   Canvas canvas;
   for (int row = 20; row < 480; row += 24) canvas.stroke({{2, row}, {637, row}}, 5);
   const cv::Mat mask = canvas.mask / 255;
-  ASSERT_GT(path::stroke_length_px(mask), kMost);
-  const auto several = path::strokes_of(mask, {640, 480}, 0);
+  ASSERT_GT(length_of(mask), kMost);
+  const auto several = strokes_in(mask, {640, 480}, 0);
   ASSERT_TRUE(several) << several.error().message;
   EXPECT_FALSE(several->filtered);
-  const auto one = path::strokes_of(mask, {640, 480});
+  const auto one = strokes_in(mask, {640, 480});
   EXPECT_TRUE(!one || one->filtered);
   std::fill(canvas.depth_m.begin(), canvas.depth_m.end(), 0.6F);  // a table below
   for (int row = 20; row < 480; row += 24) canvas.depth({{2, row}, {637, row}}, 5, 0.58F);
@@ -100,7 +106,7 @@ TEST(Strokes, OfATextureAreNoPathAndSaySo) {
   canvas.mask.row(479) = 0;
   canvas.mask.col(0) = 0;
   canvas.mask.col(639) = 0;
-  const auto strokes = path::strokes_of(canvas.mask / 255, {320, 240});
+  const auto strokes = strokes_in(canvas.mask / 255, {320, 240});
   ASSERT_FALSE(strokes);
   EXPECT_EQ(strokes.error().code, ErrorCode::kNoPath);
   EXPECT_NE(strokes.error().message.find("expected one rope"), std::string::npos);

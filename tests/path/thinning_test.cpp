@@ -1,4 +1,5 @@
 #include "path/thinning.hpp"
+#include "mat/mat_image.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,6 +7,10 @@
 
 namespace flowdlo::path {
 namespace {
+
+cv::Mat thinned(const cv::Mat& mask) {
+  return mat::mat_of(thin(mat::image_of<std::uint8_t>(mask)));
+}
 
 int components(const cv::Mat& mask) {
   cv::Mat labels;
@@ -25,7 +30,7 @@ TEST(Thinning, KeepsEveryComponentAndHole) {
   for (const int percent : {10, 30, 50, 70, 90}) {
     const cv::Mat mask = noise(percent);
 
-    const cv::Mat lines = thin(mask);
+    const cv::Mat lines = thinned(mask);
 
     EXPECT_EQ(components(lines), components(mask)) << percent;
     cv::Mat labels;
@@ -37,13 +42,13 @@ TEST(Thinning, KeepsEveryComponentAndHole) {
 
 TEST(Thinning, StaysInsideTheMask) {
   const cv::Mat mask = noise(60);
-  EXPECT_EQ(cv::countNonZero(thin(mask) & ~(mask * 255)), 0);
+  EXPECT_EQ(cv::countNonZero(thinned(mask) & ~(mask * 255)), 0);
 }
 
 TEST(Thinning, LinesAreOnePixelWide) {  // no pixel of a stroke's skeleton turns a square corner
   cv::Mat mask = cv::Mat::zeros(200, 260, CV_8U);
   cv::ellipse(mask, {130, 100}, {80, 50}, 20, 0, 300, cv::Scalar(1), 13);
-  const cv::Mat lines = thin(mask);
+  const cv::Mat lines = thinned(mask);
   for (int v = 1; v < 199; ++v) {
     for (int u = 1; u < 259; ++u) {
       const cv::Mat square = lines(cv::Rect{u, v, 2, 2});
@@ -55,19 +60,19 @@ TEST(Thinning, LinesAreOnePixelWide) {  // no pixel of a stroke's skeleton turns
 TEST(Thinning, LeavesAOnePixelLineAlone) {
   cv::Mat mask = cv::Mat::zeros(60, 60, CV_8U);
   cv::line(mask, {10, 10}, {40, 40}, cv::Scalar(1), 1);
-  EXPECT_EQ(cv::countNonZero(thin(mask) != mask), 0);
+  EXPECT_EQ(cv::countNonZero(thinned(mask) != mask), 0);
 }
 
 TEST(Thinning, DoesNotEatTwoPixelDiagonalsFromTheirEnds) {
   cv::Mat mask = cv::Mat::zeros(120, 120, CV_8U);
   for (int i = 10; i < 100; ++i) mask.at<std::uint8_t>(i, i) = mask.at<std::uint8_t>(i, i + 1) = 1;
-  EXPECT_GE(cv::countNonZero(thin(mask)), 85);
+  EXPECT_GE(cv::countNonZero(thinned(mask)), 85);
 }
 
 TEST(Thinning, MidlineOfABarLiesWithinAPixelOfTheMiddle) {
   cv::Mat mask = cv::Mat::zeros(80, 300, CV_8U);
   mask(cv::Rect{20, 30, 260, 21}) = 1;
-  const cv::Mat lines = thin(mask);
+  const cv::Mat lines = thinned(mask);
   for (int u = 60; u < 240; ++u) {
     int lit = 0;
     for (int v = 0; v < 80; ++v) {

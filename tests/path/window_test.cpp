@@ -83,7 +83,7 @@ TEST(Window, NothingLeavesTheFrame) {
 }
 
 TEST(Window, IsWidenedAsFarAsTheFrameReaches) {
-  EXPECT_EQ(path::widened({5, 10, 20, 20}, 8, {30, 100}), cv::Rect(0, 2, 30, 36));
+  EXPECT_EQ(path::widened({5, 10, 20, 20}, 8, {30, 100}), (image::Rect{0, 2, 30, 36}));
 }
 
 /// How a stroke so wide, or noise, from corner to corner of an image would be reduced.

@@ -96,6 +96,27 @@ TEST_F(SharedLibrary, ExportsNothingThatOnlyItsOwnSourcesCanCall) {
   EXPECT_THAT(exports(), Not(Contains(HasSubstr("Estimator::Impl"))));
 }
 
+TEST_F(SharedLibrary, LinksTheSystemLibpngAndZlibAlone) {
+  const auto needed = lines_of(
+      run("readelf -d '" + kLibrary + "' | sed -n 's/.*NEEDED.*\\[\\(.*\\)\\]/\\1/p'").output);
+  EXPECT_THAT(needed, Contains(HasSubstr("libc.so")));
+  for (const auto& name : needed) {
+    static const std::regex allowed(
+        R"((libc|libm|libdl|libpthread|libstdc\+\+|libgcc_s|libpng\d*|libz|ld-linux[-\w]*)\.so.*)");
+    EXPECT_TRUE(std::regex_match(name, allowed)) << name;
+  }
+}
+
+TEST_F(SharedLibrary, HasNothingToDoWithAnotherOpenCvInTheProcess) {
+  const std::string nodes = "'" FLOWDLO_NODES_PROGRAM "' examples/frames/overhand_loop";
+  const auto alone = run(nodes);
+  const auto beside = run("LD_PRELOAD='" FLOWDLO_OTHER_OPENCV "' " + nodes);
+  EXPECT_EQ(alone.status, 0) << alone.output;
+  EXPECT_EQ(beside.status, 0) << beside.output;
+  EXPECT_EQ(lines_of(alone.output).size(), 64U);
+  EXPECT_EQ(alone.output, beside.output);
+}
+
 TEST_F(SharedLibrary, OpensTheVulkanLoaderInsteadOfLinkingIt) {
   EXPECT_THAT(run("readelf -d '" + kLibrary + "'").output, Not(HasSubstr("libvulkan")));
 }

@@ -4,6 +4,7 @@
 
 #include <opencv2/imgproc.hpp>
 
+#include "mat/mat_image.hpp"
 #include "straight.hpp"
 #include "strand/targets.hpp"
 
@@ -11,6 +12,10 @@ namespace flowdlo::strand {
 namespace {
 
 constexpr float kFocal_px = 500;
+
+field::Channels shown(const Targets& targets) {
+  return mat::image_of<std::array<float, field::kChannels>>(targets.field);
+}
 
 cv::Mat mask_of(const std::vector<Strand>& strands, const cv::Size& size) {
   cv::Mat mask = cv::Mat::zeros(size, CV_32F);
@@ -27,8 +32,8 @@ TEST(Measure, APerfectFieldFindsAllAndNothingElse) {
   std::vector<Strand> strands{straight(10, 30, 110, 30, 0), straight(10, 39, 110, 39, 1)};
   for (Strand& strand : strands) strand.begins = strand.ends = true;
   const Targets targets = targets_of(strands, kFocal_px, {120, 70});
-  const Counts counts = measure(strands, mask_of(strands, {120, 70}), field::ridges(targets.field),
-                                field::tips(targets.field));
+  const Counts counts = measure(strands, mask_of(strands, {120, 70}), field::ridges(shown(targets)),
+                                field::tips(shown(targets)));
   EXPECT_GT(counts.places, 200);
   EXPECT_EQ(counts.found, counts.places);
   EXPECT_EQ(counts.merged_places, counts.places) << "they lie a width apart";
@@ -56,7 +61,7 @@ TEST(Measure, ThinningOfOneStrandFindsIt) {
 
 TEST(Measure, WrongDirectionsFindNothing) {
   const std::vector<Strand> strands{straight(10, 30, 110, 30, 0)};
-  auto ridge = field::ridges(targets_of(strands, kFocal_px, {120, 70}).field);
+  auto ridge = field::ridges(shown(targets_of(strands, kFocal_px, {120, 70})));
   for (auto& point : ridge) point.angle += 0.5F;
   const Counts counts = measure(strands, mask_of(strands, {120, 70}), ridge, {});
   EXPECT_EQ(counts.found, 0);

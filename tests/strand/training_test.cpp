@@ -5,6 +5,7 @@
 #include "field/network.hpp"
 #include "field/sight.hpp"
 #include "frame/temporary_folder.hpp"
+#include "mat/mat_image.hpp"
 #include "reference/program.hpp"
 #include "strand/export.hpp"
 #include "strand/patch_store.hpp"
@@ -158,7 +159,8 @@ TEST_F(FieldTraining, TheEngineSeesWhatTheTrainedNetworkSays) {
   auto network = field::Network::create(std::make_shared<const weights::FieldWeights>(*weights),
                                         [] { return reference::create_program(2); });
   ASSERT_TRUE(network) << network.error().message;
-  const auto got = network->see(sample.input, field::blocks_near(cv::Mat::ones(128, 128, CV_32F)));
+  const auto got = network->see(mat::image_of<std::array<float, field::kPlanes>>(sample.input),
+                                field::blocks_near(image::Image<float>({128, 128}, 1.0F)));
   ASSERT_TRUE(got) << got.error().message;
 
   const torch::NoGradGuard no_gradients;
@@ -178,7 +180,7 @@ TEST_F(FieldTraining, TheEngineSeesWhatTheTrainedNetworkSays) {
     }
   }
   EXPECT_LT(worst, 5e-3) << "weights are f16 in the file";
-  EXPECT_GT(cv::norm(*got, cv::NORM_INF), 0.05);
+  EXPECT_GT(cv::norm(mat::mat_over(*got), cv::NORM_INF), 0.05);
 }
 
 }  // namespace

@@ -4,7 +4,6 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
-#include <opencv2/core.hpp>
 #include <vector>
 
 #include "field/channel.hpp"
@@ -35,13 +34,14 @@ inline Axis arc_axis(const Eigen::Vector2f& middle, float radius, float from, fl
 }
 
 /// What a perfect network says of strands, the lowest first. `width_px` of all of them.
-inline cv::Mat painted_field(const std::vector<Axis>& axes, const cv::Size& size = {160, 160},
-                             float width_px = field::kRope_px) {
-  cv::Mat painted = cv::Mat::zeros(size, CV_32FC(field::kChannels));
-  for (int v = 0; v < painted.rows; ++v) {
-    for (int u = 0; u < painted.cols; ++u) {
+inline field::Channels painted_field(const std::vector<Axis>& axes,
+                                     const image::Size& size = {160, 160},
+                                     float width_px = field::kRope_px) {
+  field::Channels painted(size, {});
+  for (int v = 0; v < painted.height(); ++v) {
+    for (int u = 0; u < painted.width(); ++u) {
       const Eigen::Vector2f p(static_cast<float>(u), static_cast<float>(v));
-      float* const at = painted.ptr<float>(v) + u * field::kChannels;
+      auto& at = painted.at(v, u);
       for (const Axis& curve : axes) {
         std::size_t nearest = 0;
         for (std::size_t i = 1; i < curve.size(); ++i) {
@@ -67,13 +67,13 @@ inline cv::Mat painted_field(const std::vector<Axis>& axes, const cv::Size& size
   return painted;
 }
 
-inline void show_tip(cv::Mat& painted, const Eigen::Vector2f& tip) {
-  for (int v = 0; v < painted.rows; ++v) {
-    for (int u = 0; u < painted.cols; ++u) {
+inline void show_tip(field::Channels& painted, const Eigen::Vector2f& tip) {
+  for (int v = 0; v < painted.height(); ++v) {
+    for (int u = 0; u < painted.width(); ++u) {
       const float near =
           (Eigen::Vector2f(static_cast<float>(u), static_cast<float>(v)) - tip).norm() /
           (field::kTipWidths * field::kRope_px);
-      float& at = painted.ptr<float>(v)[u * field::kChannels + field::kTip];
+      float& at = painted.at(v, u)[field::kTip];
       at = std::max(at, std::exp(-near * near));
     }
   }

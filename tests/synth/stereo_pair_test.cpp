@@ -33,7 +33,10 @@ std::vector<float> depth_of(const StillLife& scene, const StereoRig& rig, std::u
   Dice dice({Split::kWide, Part::kTraining, 0, index}, Use::kInfrared);
   const auto eyes = infrared(scene.view, rig, scene.ropes(), {}, dice);
   EXPECT_TRUE(eyes) << eyes.error().message;
-  return eyes ? matched(scene.view, rig, *eyes, 0.9 * scene.view.distance_m) : std::vector<float>();
+  if (!eyes) return {};
+  const auto depth_m = matched(scene.view, rig, *eyes, 0.9 * scene.view.distance_m);
+  EXPECT_TRUE(depth_m) << depth_m.error().message;
+  return depth_m ? *depth_m : std::vector<float>();
 }
 
 Matched compare(const StillLife& scene, const std::vector<float>& depth_m) {

@@ -9,7 +9,7 @@
 #include <span>
 
 #include "frame/limits.hpp"
-#include "frame/png.hpp"
+#include "mat/mat_png.hpp"
 #include "recording/jpeg.hpp"
 
 namespace flowdlo::recording {
@@ -87,7 +87,7 @@ cv::Mat converted(const cv::Mat& picture, Wanted wanted) {
 
 Result<cv::Mat> decoded(std::span<const std::uint8_t> bytes, Wanted wanted,
                         const std::string& format, const std::string& who) {
-  if (const auto png = frame::decode_png(bytes, who)) return converted(*png, wanted);
+  if (const auto png = mat::decode_png(bytes, who)) return converted(*png, wanted);
   const JpegColors colors = wanted == Wanted::kGrey ? JpegColors::kGrey : JpegColors::kBgr;
   cv::Mat picture = decode_jpeg(bytes, colors, frame::kMaxSide_px);
   if (!picture.empty()) return picture;
