@@ -67,7 +67,9 @@ Result<RopeReadings> read_ropes(const Frame& frame, int ropes, const SeeAxes& se
   auto masked = path::trace_ropes(frame, ropes);
   if (!masked) return masked.error();
   const std::size_t count = masked->ropes.size();
-  const auto axes = see ? see(masked->rope_width_px) : std::nullopt;
+  // Of noise a field shows noise, and the longer the more there is of it.
+  const bool worth = see && !masked->filtered;
+  const auto axes = worth ? see(masked->rope_width_px) : std::nullopt;
   if (!axes) return RopeReadings{*std::move(masked), std::vector(count, Witness::kNone)};
   auto seen = path::trace_ropes(frame, *axes, ropes, masked->guesses);
   if (!seen) return RopeReadings{*std::move(masked), std::vector(count, Witness::kDiffers)};

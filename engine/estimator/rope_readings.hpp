@@ -30,9 +30,9 @@ struct RopeReadings {
   std::vector<Witness> witness;  ///< [ropes]
 };
 
-/// The mask's ropes (`path::trace_ropes`), or, where `see` shows axes and they make ropes, those of
-/// the axes: strands that the mask merges lie apart there. The mask's are their witness then.
-/// Expects a valid frame. Fails as path::trace_ropes does of the mask.
+/// The mask's ropes (`path::trace_ropes`), or, where the mask is not noise, and `see` shows axes
+/// and they make ropes, those of the axes: strands that the mask merges lie apart there. The mask's
+/// are their witness then. Expects a valid frame. Fails as path::trace_ropes does of the mask.
 [[nodiscard]] Result<RopeReadings> read_ropes(const Frame& frame, int ropes, const SeeAxes& see);
 
 /// Whether two paths are one rope's: from end to end, in either direction, never farther apart

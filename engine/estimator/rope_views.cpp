@@ -25,6 +25,7 @@ std::size_t index_of(const Frame& frame, const Vector2f& p) {
 RopeView::RopeView(const Parted& parted, std::size_t rope, const Frame& frame)
     : path_(parted.paths.ropes[rope]),
       width_px_(parted.width_px[rope]),
+      filtered_(parted.paths.filtered),
       original_(frame),
       mask_(frame.mask.size(), 0),
       depth_m_(frame.depth_m.begin(), frame.depth_m.end()) {
@@ -74,6 +75,7 @@ path::Traversals RopeView::traversals() const {
   result.ranked.front().width_px = width_px_;
   result.rope_width_px = width_px_;
   result.strands = 1;
+  result.filtered = filtered_;
   return result;
 }
 

@@ -27,6 +27,7 @@ class RopeView {
  private:
   path::Path path_;
   float width_px_;
+  bool filtered_;
   Frame original_;
   std::vector<std::uint8_t> mask_;
   std::vector<float> depth_m_;

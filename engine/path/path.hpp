@@ -33,8 +33,8 @@ struct Traversals {
 };
 
 struct TraceConfig {
-  int alternatives = 3;      ///< kept beside the best
-  double rope_length_m = 0;  ///< known length; 0: unknown
+  int alternatives = 3;                 ///< kept beside the best
+  double rope_length_m = 0;             ///< known length; 0: unknown
   std::vector<Eigen::Vector2f> ends{};  ///< where ends are known to be: (x / z, y / z) of the
                                         ///< camera frame, two at most
 };
@@ -50,6 +50,7 @@ struct RopePaths {
   std::vector<Path> ropes;  ///< never empty; `score` is the set's
   std::vector<float> lead;  ///< [ropes] by how much any set without that rope costs more
   float rope_width_px = 0;  ///< median width of the mask across the skeleton
+  bool filtered = false;    ///< the mask is noise or texture; what a filter left of it was read
   std::vector<RopesGuess>
       guesses{};  ///< the likeliest sets, that one first; none of a field's axes
 };

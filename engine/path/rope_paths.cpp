@@ -173,6 +173,7 @@ Result<RopePaths> rope_paths(const Strands& strands, const std::vector<std::vect
   if (sets.empty()) return no_set(ropes, strands);
   RopePaths result;
   result.rope_width_px = strands.width_px;
+  result.filtered = region.filtered;
   Drawing drawing(strands, region, frame);
   for (const Traversal& way : sets.front().ways) {
     Path path = drawing.of(way);

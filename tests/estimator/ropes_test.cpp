@@ -336,6 +336,29 @@ TEST(RopeReadings, WhereTheAxesMakeNoRopesTheMasksAreInDoubt) {
   EXPECT_THAT(read->witness, ::testing::Each(estimator::Witness::kDiffers));
 }
 
+TEST(RopeReadings, OfNoiseTheFieldIsNotAsked) {
+  const auto scene = make_ropes(RopesKind::kCrossing, 2, 0);
+  Frame frame = scene.frame();
+  std::vector<std::uint8_t> mask(frame.mask.size(), 0);
+  std::uint32_t state = 1;
+  for (std::uint8_t& at : mask) {
+    state = 1664525U * state + 1013904223U;
+    at = (state >> 24U) < 77U ? 255 : 0;  // three pixels in ten
+  }
+  frame.mask = mask;
+  int asked = 0;
+  const auto read = estimator::read_ropes(frame, 0, [&](float) {
+    ++asked;
+    return std::optional<field::Axes>();
+  });
+  EXPECT_EQ(asked, 0);
+  if (!read) return;  // nor need it be ropes
+  EXPECT_TRUE(read->paths.filtered);
+  const auto parted = estimator::part_ropes(frame, 0, {});
+  ASSERT_TRUE(parted) << parted.error().message;
+  EXPECT_TRUE(estimator::RopeView(*parted, 0, frame).traversals().filtered);
+}
+
 TEST(EstimateRopes, TheStrandFieldPartsARingFromARopeThatTheMaskTakesForOne) {
   const auto scene = make_ropes(RopesKind::kRings, 2, 1);
   auto by_mask = make(0);

@@ -170,13 +170,14 @@ TEST_F(FieldTraining, TheEngineSeesWhatTheTrainedNetworkSays) {
   const float* const expected = want.data_ptr<float>();
   double worst = 0;
   for (int i = 0; i < 128 * 128; ++i) {
-    const float* const values = got->ptr<float>() + i * field::kChannels;
+    const auto& values = got->data()[i];
     for (int c = 0; c < field::kChannels; ++c) {
       const bool logit = c == field::kCentre || c == field::kTip || c == field::kUnder ||
                          c == field::kRope || c == field::kEdge;
       const auto value = static_cast<double>(expected[i * field::kChannels + c]);
       const double said = logit ? 1 / (1 + std::exp(-value)) : value;
-      worst = std::max(worst, std::abs(said - static_cast<double>(values[c])));
+      worst = std::max(worst,
+                       std::abs(said - static_cast<double>(values[static_cast<std::size_t>(c)])));
     }
   }
   EXPECT_LT(worst, 5e-3) << "weights are f16 in the file";

@@ -11,7 +11,7 @@
 #include <utility>
 
 #include "estimate_json.hpp"
-#include "frame/png.hpp"
+#include "mat/mat_png.hpp"
 #include "overlay.hpp"
 
 namespace flowdlo::view {
@@ -126,7 +126,7 @@ Json cloud_of(const Frame& frame, bool of_rope, double most) {
 }
 
 Result<std::string> png_of(const cv::Mat& picture) {
-  const auto bytes = frame::encode_png(picture);
+  const auto bytes = mat::encode_png(picture);
   if (!bytes) return bytes.error();
   return std::string(bytes->begin(), bytes->end());
 }
