@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "frame/png.hpp"
+#include "mat/mat_png.hpp"
 
 namespace flowdlo::eval {
 namespace {
@@ -36,7 +36,7 @@ struct Case {
       support[i] = i < 32 ? 1 : 0;
     }
     const auto png = error_overlay_png(frame, truth, nodes, support);
-    return png ? *frame::decode_png(*png, "picture") : cv::Mat();
+    return png ? *mat::decode_png(*png, "picture") : cv::Mat();
   }
 };
 

@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
-#include "frame/png.hpp"
 #include "frame/temporary_folder.hpp"
+#include "mat/mat_png.hpp"
 #include "support/source_dir.hpp"
 #include "tools/program.hpp"
 #include "tools/view/http_client.hpp"
@@ -59,7 +59,7 @@ std::string looked_at(const std::string& url, const std::string& what, const fs:
 
 cv::Mat decoded(const std::string& png) {
   const std::vector<std::uint8_t> bytes(png.begin(), png.end());
-  const auto image = frame::decode_png(bytes, "picture");
+  const auto image = mat::decode_png(bytes, "picture");
   return image ? *image : cv::Mat();
 }
 
