@@ -118,7 +118,8 @@ Result<std::unique_ptr<Estimator::Impl>> Estimator::Impl::create(const Config& w
   if (!location) return location.error();
   // Opening a driver takes as long as reading the weights: side by side, where a thread is to be
   // had.
-  auto choice = threads::aside(true, [&] { return estimator::choose_back_end(wanted); });
+  const bool beside = threads::count(wanted.threads) > 1;
+  auto choice = threads::aside(beside, [&] { return estimator::choose_back_end(wanted); });
   auto loaded = weights::load_and_keep(location->model);
   auto back_end = choice.get();
   if (!loaded) return loaded.error();

@@ -3,12 +3,15 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <future>
+#include <iterator>
 #include <stdexcept>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "flowdlo/frame_folder.hpp"
@@ -148,6 +151,42 @@ TEST_P(SameBits, AfterAFrameThatNeedsMoreMemory) {
 
 INSTANTIATE_TEST_SUITE_P(On, SameBits, ::testing::Values("cpu", "vulkan"),
                          [](const auto& device) { return std::string(device.param); });
+
+/// The most threads that the process has while `work` runs.
+template <class Work>
+int most_threads(const Work& work) {
+  const auto count = [] {
+    const std::filesystem::directory_iterator tasks("/proc/self/task");
+    return static_cast<int>(std::distance(begin(tasks), end(tasks)));
+  };
+  std::atomic<bool> done = false;
+  std::atomic<int> most = 0;
+  std::thread watch([&] {
+    do {
+      most = std::max(most.load(), count() - 1);  // without this one
+    } while (!done);
+  });
+  work();
+  done = true;
+  watch.join();
+  return most;
+}
+
+TEST(Threads, AreNotStartedByAnEstimatorThatMayHaveOne) {
+  Config config = config_on("cpu");
+  config.threads = 1;
+  const Frames frames;
+  ASSERT_EQ(most_threads([] {}), 1) << "before";
+  const int most = most_threads([&] {
+    Estimator estimator = make(config);
+    for (int i = 0; i < Frames::kCount; ++i) {
+      const auto estimate = estimator.estimate(frames[i]);
+      ASSERT_TRUE(estimate) << estimate.error().message;
+      ASSERT_TRUE(estimator.estimate_ropes(frames[i]));
+    }
+  });
+  EXPECT_EQ(most, 1);
+}
 
 /// How many threads of this process Mesa's CPU driver started: it names them after itself.
 int driver_threads() {

@@ -38,7 +38,7 @@ struct Star {
                cv::Scalar(255), 10);
     }
     for (int i = 0; i < kWidth * kHeight; ++i) {
-      depth_m.push_back(mask.data[i] != 0 ? 0.5F : 0.51F);
+      depth_m.push_back(mask.data[i] != 0 ? 0.5F : 0.6F);  // a wall behind it
     }
   }
 
