@@ -150,13 +150,13 @@ class Exposure {
       if (done[seen.pixel]) continue;
       done[seen.pixel] = true;
       const Vector3f point = point_of(seen.pixel, seen.z_m);
-      image[seen.pixel] = shade(albedo(seen, point), point, seen.normal, true);
+      image[seen.pixel] = shade(albedo(seen, point), point, seen.normal);
     }
     const Vector3f normal = eye_.view.ground.normal.cast<float>();
     for (std::size_t i = 0; i < image.size(); ++i) {
       if (done[i] || picture.depth_m[i] <= 0) continue;
       const Vector3f point = point_of(i, picture.depth_m[i]);
-      image[i] = shade(ground_albedo(point), point, normal, true);
+      image[i] = shade(ground_albedo(point), point, normal);
     }
     return image;
   }
@@ -185,8 +185,7 @@ class Exposure {
            (1 + 4 * coat.grain * (braid(curve, seen, point, ropes_[seen.rope].radius_m) - 1));
   }
 
-  [[nodiscard]] float shade(float albedo, const Vector3f& point, const Vector3f& normal,
-                            bool shadows) const {
+  [[nodiscard]] float shade(float albedo, const Vector3f& point, const Vector3f& normal) const {
     const Vector3f seen_along = point.normalized();
     float light = scene_.ambient * (0.6F + 0.4F * std::max(0.0F, -normal.dot(seen_along)));
     if (scene_.dots > 0) {
@@ -195,7 +194,7 @@ class Exposure {
       const float dot = facing > 0 && way.z() > 0
                             ? dots_at(scene_.pattern, way.x() / way.z(), way.y() / way.z())
                             : 0.0F;
-      if (dot > 0.02F && !(shadows && tracer_.shadowed(point + 0.0004F * normal, projector_))) {
+      if (dot > 0.02F && !tracer_.shadowed(point + 0.0004F * normal, projector_)) {
         light += scene_.dots * dot * facing * kLit_m * kLit_m / way.squaredNorm();
       }
     }
