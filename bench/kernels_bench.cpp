@@ -1,7 +1,9 @@
 // Kernels on a Vulkan device: each result is checked against the CPU back end, then timed by the
 // device's clock, less the cost of an empty dispatch.
 //
-//   kernels_bench [--device=NAME] [Google Benchmark's options]
+//   kernels_bench [--device=NAME] [--gemm=ROWSxCOLUMNSxDEPTH] [Google Benchmark's options]
+//
+// --gemm: the tile of CPU drivers' kernel for dense layers, in place of what the device is given.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -11,6 +13,7 @@
 #include <functional>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "device_option.hpp"
@@ -61,9 +64,18 @@ std::vector<float> result_of(ops::Program& program, const Subject& subject) {
   return values;
 }
 
+/// What --gemm asks for; none: what the device is given.
+std::optional<vulkan::GemmChoice> wanted_gemm;
+
+std::unique_ptr<ops::Program> program_on(const std::shared_ptr<vulkan::Device>& device) {
+  vulkan::ProgramOptions options;
+  options.gemm = wanted_gemm;
+  return vulkan::create_program(device, options);
+}
+
 bool agrees(const std::shared_ptr<vulkan::Device>& device, const Subject& subject) {
   const auto cpu = reference::create_program(1);
-  const auto gpu = vulkan::create_program(device);
+  const auto gpu = program_on(device);
   const std::vector<float> expected = result_of(*cpu, subject);
   const std::vector<float> got = result_of(*gpu, subject);
   float largest = 0;
@@ -77,7 +89,7 @@ bool agrees(const std::shared_ptr<vulkan::Device>& device, const Subject& subjec
 
 std::unique_ptr<ops::Program> timed_program(const std::shared_ptr<vulkan::Device>& device,
                                             const Subject& subject) {
-  auto program = vulkan::create_program(device);
+  auto program = program_on(device);
   const auto out = program->output("out", subject.out_rows, subject.out_columns);
   program->stage("timed");
   subject.record(*program, out, subject.repeats);
@@ -321,6 +333,14 @@ void register_all(const std::shared_ptr<vulkan::Device>& device) {
 
 int main(int argc, char** argv) {
   const std::string wanted = flowdlo::bench::wanted_device(argc, argv);
+  if (const std::string gemm = flowdlo::bench::option(argc, argv, "--gemm="); !gemm.empty()) {
+    flowdlo::vulkan::GemmChoice choice;
+    if (std::sscanf(gemm.c_str(), "%dx%dx%d", &choice.rows, &choice.columns, &choice.depth) != 3) {
+      std::fprintf(stderr, "--gemm: expected ROWSxCOLUMNSxDEPTH, got %s\n", gemm.c_str());
+      return 2;
+    }
+    flowdlo::wanted_gemm = choice;
+  }
   benchmark::Initialize(&argc, argv);
   const auto device = flowdlo::vulkan::open_device({.wanted = wanted});
   if (!device) {

@@ -5,14 +5,16 @@
 //             key_value  [keys, 4 key_value_stride]  f32, RGBA texels
 //             valid      [keys, 4]                   RGBA texels; column 3 below 0.5: left out
 //                                                    (ones where all count, of the 64 keys of a draw)
+//             key_rows, valid_rows  the same as key_value and valid, as storage buffers
 //   out       result     [rows, 256]  f32
 //   dispatch  (8 heads, rows / (lanes * queries) rounded up, 1), one subgroup a workgroup; rows last,
 //             so that what a core of a CPU driver reads is what it wrote before
 //   twin      engine/reference/attention.cpp; agrees to 1e-5 of the largest value
 //
-// A lane owns `queries` queries. Keys come in blocks of `block`, whose texels are spread over the
-// lanes: each fetches its share, shuffles hand them round; a plain kernel's lanes all fetch every
-// texel, from one address. The softmax is online, rescaled once a block. Nothing waits.
+// A lane owns `queries` queries. Keys come in blocks of `block`. CPU drivers spread their texels over
+// the lanes: each fetches its share, shuffles hand them round. Elsewhere, where hands_round is not
+// set, all lanes read every key from one address: a GPU does that once for all of them, into scalar
+// registers. The softmax is online, rescaled once a block. Nothing waits.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #ifndef PLAIN  // without subgroups: see vulkan/shader_code.hpp
@@ -26,13 +28,16 @@ layout(constant_id = 0) const int lanes = 8;
 layout(constant_id = 1) const int queries = 4;   // a lane; lanes * queries at most 64, or 1
 layout(constant_id = 2) const int block = 4;     // keys; divides `lanes`
 layout(constant_id = 3) const int few_keys = 0;  // that a row sees; 0: all of `valid`
+layout(constant_id = 4) const int hands_round = 1;
 layout(local_size_x_id = 0) in;
 
 layout(push_constant) uniform Push { AttentionPush push; };
 layout(binding = 0) uniform samplerBuffer query;
 layout(binding = 1) uniform samplerBuffer key_value;
 layout(binding = 2) uniform samplerBuffer valid;
-layout(binding = 3, std430) writeonly buffer Result { vec4 result[]; };
+layout(binding = 3, std430) restrict writeonly buffer Result { vec4 result[]; };
+layout(binding = 4, std430) restrict readonly buffer Keys { vec4 key_rows[]; };
+layout(binding = 5, std430) restrict readonly buffer Valid { vec4 valid_rows[]; };
 
 const int kHeadTexels = 8;  // 32 channels
 const int kRowTexels = 64;  // of the result
@@ -45,7 +50,7 @@ const float kLowest = -1e30;
 const int spread = lanes / block < kHeadTexels ? lanes / block : kHeadTexels;
 const int share = kHeadTexels / spread;
 
-// Texel c of key j of the block.
+// Texel c of key j of the block: a share of what lanes hold, or one address for all of them.
 #ifndef PLAIN
 vec4 from(vec4 held[share], int j, int c, uint group) {
   vec4 texel = held[c / spread];
@@ -53,14 +58,13 @@ vec4 from(vec4 held[share], int j, int c, uint group) {
   return vec4(subgroupShuffle(texel.x, holder), subgroupShuffle(texel.y, holder),
               subgroupShuffle(texel.z, holder), subgroupShuffle(texel.w, holder));
 }
-#define KEY(j, c) from(k, j, c, group)
-#define VALUE(j, c) from(v, j, c, group)
-#define USABLE(j) subgroupShuffle(usable, group + uint(j * spread))
+#define HANDED(handed, read) (hands_round != 0 ? handed : read)
 #else
-#define KEY(j, c) texelFetch(key_value, texel_of(first_key + b + j, head + c) + push.key_column)
-#define VALUE(j, c) texelFetch(key_value, texel_of(first_key + b + j, head + c) + push.value_column)
-#define USABLE(j) texelFetch(valid, first_valid + b + j).w
+#define HANDED(handed, read) read
 #endif
+#define KEY(j, c) HANDED(from(k, j, c, group), key_rows[one_key + j * row_quads + c])
+#define VALUE(j, c) HANDED(from(v, j, c, group), key_rows[one_value + j * row_quads + c])
+#define USABLE(j) HANDED(subgroupShuffle(usable, group + uint(j * spread)), valid_rows[one_valid + j].w)
 
 int texel_of(int key, int column) { return key * push.key_value_stride + column; }
 
@@ -88,6 +92,13 @@ void main() {
   int draw = min(first_row, push.rows - 1) / kDrawRows;
   int first_key = draw * push.keys_a_draw;
   int first_valid = draw * push.valid_a_draw;
+  // The same for all lanes, who are no more than a draw's rows where they read the same keys.
+  uint row_quads = uint(push.key_value_stride);
+  uint one_draw = min(gl_WorkGroupID.y * lanes * queries, uint(push.rows - 1)) / kDrawRows;
+  uint one_row = one_draw * push.keys_a_draw * row_quads + gl_WorkGroupID.x * kHeadTexels;
+  uint one_key = one_row + push.key_column;
+  uint one_value = one_row + push.value_column;
+  uint one_valid = one_draw * push.valid_a_draw;
   // Not a specialisation constant: one kernel, 0.2 s of a CPU driver's compiler, serves both uses.
   int keys = few_keys != 0 ? few_keys : textureSize(valid);
 
@@ -96,25 +107,37 @@ void main() {
     int mine = b + lane / spread % block;
     vec4 k[share];
     vec4 v[share];
-    [[unroll]] for (int c = 0; c < share; ++c) {
-      int texel = texel_of(first_key + mine, head + lane % spread + c * spread);
-      k[c] = texelFetch(key_value, texel + push.key_column);
-      v[c] = texelFetch(key_value, texel + push.value_column);
+    float usable;
+    if (hands_round != 0) {
+      [[unroll]] for (int c = 0; c < share; ++c) {
+        int texel = texel_of(first_key + mine, head + lane % spread + c * spread);
+        k[c] = texelFetch(key_value, texel + push.key_column);
+        v[c] = texelFetch(key_value, texel + push.value_column);
+      }
+      usable = texelFetch(valid, first_valid + mine).w;
     }
-    float usable = texelFetch(valid, first_valid + mine).w;
 #endif
 
     float score[queries * block];
     [[unroll]] for (int j = 0; j < block; ++j) {
       [[unroll]] for (int i = 0; i < queries; ++i) score[i * block + j] = 0.0;
+      vec4 parts[queries];  // what a GPU adds up without waiting for the sum before
+      [[unroll]] for (int i = 0; i < queries; ++i) parts[i] = vec4(0.0);
       [[unroll]] for (int c = 0; c < kHeadTexels; ++c) {
         vec4 key = KEY(j, c);
         [[unroll]] for (int i = 0; i < queries; ++i) {
-          score[i * block + j] += dot(q[i * kHeadTexels + c], key);
+          if (hands_round != 0) {
+            score[i * block + j] += dot(q[i * kHeadTexels + c], key);
+          } else {
+            parts[i] += q[i * kHeadTexels + c] * key;
+          }
         }
       }
       float seen = USABLE(j);
       [[unroll]] for (int i = 0; i < queries; ++i) {
+        if (hands_round == 0) {
+          score[i * block + j] = (parts[i].x + parts[i].y) + (parts[i].z + parts[i].w);
+        }
         score[i * block + j] = seen < 0.5 ? kLowest : score[i * block + j];
       }
     }
@@ -142,6 +165,9 @@ void main() {
         }
       }
     }
+    one_key += block * row_quads;
+    one_value += block * row_quads;
+    one_valid += block;
   }
 
   [[unroll]] for (int i = 0; i < queries; ++i) {

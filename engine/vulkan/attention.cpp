@@ -10,7 +10,9 @@ namespace {
 
 constexpr int kBlock = 4;  // keys that a subgroup hands round in one round of its loop
 // A lane's, where a subgroup's then lie within one draw. Every key handed round serves all of them;
-// twice as many of either, and the loop leaves the instruction cache of a CPU driver's core.
+// twice as many of either, and the loop leaves the instruction cache of a CPU driver's core. Where
+// all lanes read a key from one address, nothing is handed round: one query leaves a GPU's
+// registers for twice as many subgroups.
 constexpr int kMostQueries = 4;
 
 bool sound(Plan& plan, const ops::Attention& op) {
@@ -49,21 +51,27 @@ Range valid_of(Plan& plan, const ops::Attention& op, Window rows) {
 void record_attention(Plan& plan, const ops::Attention& op) {
   if (!sound(plan, op)) return;
   const int lanes = plan.lanes();
-  const int queries = std::clamp(ops::kRowsPerDraw / lanes, 1, kMostQueries);
+  // Lanes of two draws do not read the same keys.
+  const bool hands_round = plan.hands_round() || lanes > ops::kRowsPerDraw;
+  const int queries = hands_round ? std::clamp(ops::kRowsPerDraw / lanes, 1, kMostQueries) : 1;
   const int columns =
       op.per_draw ? std::max(plan.pitch(op.query), plan.pitch(op.key_value)) : plan.pitch(op.query);
   for (const Window rows : Plan::windows(op.query.rows, plan.most_texels() / (columns / 4))) {
     const Range query = plan.rows(op.query, rows);
-    const AttentionCall call{
-        .query = {query},
-        .key_value = {op.per_draw ? plan.rows(op.key_value, rows) : plan.whole(op.key_value)},
-        .valid = {valid_of(plan, op, rows)},
-        .result = {plan.rows(op.out, rows)}};
+    const Range keys = op.per_draw ? plan.rows(op.key_value, rows) : plan.whole(op.key_value);
+    const Range valid = valid_of(plan, op, rows);
+    const AttentionCall call{.query = {query},
+                             .key_value = {keys},
+                             .valid = {valid},
+                             .result = {plan.rows(op.out, rows)},
+                             .key_rows = {keys},
+                             .valid_rows = {valid}};
     plan.dispatch(call,
                   {.lanes = lanes,
                    .queries = queries,
                    .block = std::min(kBlock, lanes),
-                   .few_keys = op.key_valid && op.per_draw ? ops::kRowsPerDraw : 0},
+                   .few_keys = op.key_valid && op.per_draw ? ops::kRowsPerDraw : 0,
+                   .hands_round = hands_round ? 1 : 0},
                   {.rows = rows.count,
                    .query_stride = plan.pitch(op.query) / 4,
                    .query_column = op.query_column / 4,

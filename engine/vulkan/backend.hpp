@@ -20,6 +20,7 @@
 namespace flowdlo::vulkan {
 
 class Device;
+class Plan;
 
 struct Selection {
   /// "vulkan": any device, GPUs first (discrete, integrated, virtual, other, CPU). Anything else:
@@ -65,6 +66,9 @@ struct ProgramOptions {
   std::optional<GemmChoice> gemm = std::nullopt;  ///< how dense layers run; none: found out
   /// Tests' way of making a kernel's results wrong where they are checked.
   std::function<void(const GemmChoice&, std::span<float>)> disturb = nullptr;
+  /// Given, build() shows it what was recorded, and makes nothing of it: for devices that are known
+  /// to a compiler alone. Needs `gemm`.
+  std::function<void(const Plan&)> inspect = nullptr;
 };
 
 /// A program for one device; several may share a device, also across threads. After a run that

@@ -60,7 +60,7 @@ void record_convolution(Plan& plan, const ops::Convolution& op, const Convolutio
                     {.lanes = plan.lanes(),
                      .taps_across = layer.taps == 9 ? 3 : 1,
                      .x_is_texels = plan.fits(x, kTexelBytes) ? 1 : 0,
-                     .hands_round = plan.gemm().family == GemmFamily::kSimd ? 1 : 0},
+                     .hands_round = plan.hands_round() ? 1 : 0},
                     {.side_bits = std::countr_zero(static_cast<unsigned>(op.side)),
                      .fours = fours,
                      .x_quads = plan.pitch(op.x) / 4,

@@ -103,6 +103,14 @@ Result<void> Device::create_device() {
     chain = matrices.chain(chain);
     extensions.insert(extensions.end(), kMatrixExtensions.begin(), kMatrixExtensions.end());
   }
+  VkPhysicalDevicePipelineExecutablePropertiesFeaturesKHR statistics{
+      .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PIPELINE_EXECUTABLE_PROPERTIES_FEATURES_KHR,
+      .pNext = chain,
+      .pipelineExecutableInfo = VK_TRUE};
+  if (facts_.keeps_statistics) {
+    chain = &statistics;
+    extensions.push_back(VK_KHR_PIPELINE_EXECUTABLE_PROPERTIES_EXTENSION_NAME);
+  }
   const VkDeviceCreateInfo info{
       .sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO,
       .pNext = chain,

@@ -10,6 +10,10 @@ namespace {
 constexpr VkPipelineShaderStageCreateFlags kFullSubgroups =
     VK_PIPELINE_SHADER_STAGE_CREATE_REQUIRE_FULL_SUBGROUPS_BIT_EXT;
 
+constexpr VkPipelineCreateFlags kKeepStatistics =
+    VK_PIPELINE_CREATE_CAPTURE_STATISTICS_BIT_KHR |
+    VK_PIPELINE_CREATE_CAPTURE_INTERNAL_REPRESENTATIONS_BIT_KHR;
+
 Result<Owned<VkDescriptorSetLayout>> create_set_layout(const Device& device,
                                                        const KernelSpec& spec) {
   std::vector<VkDescriptorSetLayoutBinding> bindings;
@@ -78,7 +82,7 @@ Result<Owned<VkPipeline>> create_pipeline(const Device& device, const KernelSpec
   const VkComputePipelineCreateInfo info{
       .sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO,
       .pNext = nullptr,
-      .flags = 0,
+      .flags = device.facts().keeps_statistics ? kKeepStatistics : 0,
       .stage = {.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO,
                 .pNext = fixes_lanes ? &required : nullptr,
                 .flags = fixes_lanes && device.facts().full_subgroups ? kFullSubgroups : 0,

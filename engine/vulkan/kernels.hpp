@@ -109,6 +109,7 @@ struct NarrowCall {
 struct LayerNormCall {
   struct Constants {
     int lanes;
+    int across;
   };
   using Push = NoPush;
   static constexpr bool kUsesSubgroups = true;
@@ -127,6 +128,7 @@ struct AttentionCall {
     int queries;
     int block;
     int few_keys;
+    int hands_round;
   };
   using Push = AttentionPush;
   static constexpr bool kUsesSubgroups = true;
@@ -136,8 +138,10 @@ struct AttentionCall {
   Texels key_value;
   Texels valid;
   Writes result;
-  [[nodiscard]] std::array<Binding, 4> bindings() const {
-    return {query, key_value, valid, result};
+  Reads key_rows;
+  Reads valid_rows;
+  [[nodiscard]] std::array<Binding, 6> bindings() const {
+    return {query, key_value, valid, result, key_rows, valid_rows};
   }
 };
 

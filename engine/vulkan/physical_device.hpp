@@ -25,6 +25,9 @@ struct PhysicalDevice {
   bool full_subgroups = false;  ///< ditto
   /// Of cooperative matrices, f16 in and f32 out, by a subgroup: 16, 8, or 0 where there are none.
   int matrix_edge = 0;
+  /// Whoever opens the device may set it: pipelines then keep what the driver's compiler says of
+  /// them (VK_KHR_pipeline_executable_properties, which the driver must have).
+  bool keeps_statistics = false;
   std::string driver_uuid;  ///< 32 hexadecimal digits
 };
 

@@ -25,9 +25,8 @@ ops::Tensor Plan::tensor(Home home, std::string_view name, int rows, int columns
 }
 
 ops::Tensor Plan::scratch(std::string_view name, int rows, int columns) {
-  const bool is_cpu = device_->facts().report.kind == DeviceKind::kCpu;
-  const bool spreads = chosen_ && is_cpu && gemm_.family == GemmFamily::kSimd &&
-                       columns * static_cast<int>(sizeof(float)) % kSetBytes == 0;
+  const bool spreads =
+      chosen_ && hands_round() && columns * static_cast<int>(sizeof(float)) % kSetBytes == 0;
   const ops::Tensor placed = tensor(Home::kDevice, name, rows, spreads ? columns + kGap : columns);
   return {placed.id, rows, columns};
 }

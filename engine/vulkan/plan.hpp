@@ -114,6 +114,11 @@ class Plan {
   [[nodiscard]] const Device& device() const { return *device_; }
   /// What runs the dense layers.
   [[nodiscard]] const GemmChoice& gemm() const { return gemm_; }
+  /// Whether lanes fetch a share each and hand it round: CPU drivers like that. A GPU's lanes all
+  /// read from one address, or each what lies beside the others'.
+  [[nodiscard]] bool hands_round() const {
+    return gemm_.family == GemmFamily::kSimd && device_->facts().report.kind == DeviceKind::kCpu;
+  }
   [[nodiscard]] int lanes() const { return device_->facts().lanes; }
   [[nodiscard]] Resources& resources() { return resources_; }
   [[nodiscard]] const Resources& resources() const { return resources_; }

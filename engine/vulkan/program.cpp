@@ -189,6 +189,10 @@ Result<void> Program::build() {
     }
     return Error{ErrorCode::kInternal, text};
   }
+  if (options_.inspect) {
+    options_.inspect(work_->plan);
+    return {};
+  }
   const auto allocated = work_->plan.resources().allocate(*work_->device);
   if (!allocated) return allocated.error();
   const auto compiled = compile();
