@@ -9,9 +9,11 @@ namespace flowdlo::vulkan {
 namespace {
 
 // A CPU driver keeps the tile in its stack frame and likes it large, as long as one round of the
-// inner loop (at most 25 kB of code) fits into a core's instruction cache; a GPU keeps it in
-// registers.
-constexpr GemmChoice kCpuSimd{GemmFamily::kSimd, 32, 8, 1};
+// inner loop fits into what a core keeps of instructions: 25 kB of code on Zen 5, half of that on
+// Zen 3. A GPU keeps it in registers.
+constexpr std::array kCpuSimds{GemmChoice{GemmFamily::kSimd, 32, 8, 1},
+                               GemmChoice{GemmFamily::kSimd, 16, 8, 1},
+                               GemmChoice{GemmFamily::kSimd, 16, 4, 2}};
 constexpr GemmChoice kGpuSimd{GemmFamily::kSimd, 8, 4, 1};
 // 256 x 256 must still give each core of a GPU work: small tiles come first.
 constexpr std::array kTiles{GemmChoice{GemmFamily::kTile, 32, 32, 16},
@@ -42,7 +44,8 @@ bool fits(const PhysicalDevice& device, const GemmChoice& choice) {
 void add_simd(const PhysicalDevice& device, GemmChoice choice, std::vector<GemmChoice>& to) {
   if (!device.shuffles) return;
   choice.columns = std::min(choice.columns, kPanelColumns / device.lanes);
-  if (choice.columns >= kFours) to.push_back(choice);
+  const bool known = std::find(to.begin(), to.end(), choice) != to.end();
+  if (choice.columns >= kFours && !known) to.push_back(choice);
 }
 
 }  // namespace
@@ -57,7 +60,9 @@ int threads_of(const GemmChoice& choice, const PhysicalDevice& device) {
 std::vector<GemmChoice> gemm_candidates(const PhysicalDevice& device) {
   std::vector<GemmChoice> candidates;
   const bool is_cpu = device.report.kind == DeviceKind::kCpu;
-  if (is_cpu) add_simd(device, kCpuSimd, candidates);
+  if (is_cpu) {
+    for (const GemmChoice& choice : kCpuSimds) add_simd(device, choice, candidates);
+  }
   const bool has_matrices = device.matrix_edge > 0 && !shaders::matrix_gemm().words.empty();
   if (has_matrices && !is_cpu) {
     for (const GemmChoice& choice : kMatrices) {

@@ -13,6 +13,7 @@ namespace flowdlo::vulkan {
 namespace {
 
 constexpr int kDraws = 4;
+constexpr int kRuns = 3;
 constexpr int kSamples = 97;  // entries of each result that are looked at
 constexpr double kLargest = 1e-4;
 constexpr double kLargestOfMatrix = 5e-3;  // x has the 11 bits of f16
@@ -124,8 +125,11 @@ Result<double> try_gemm(const std::shared_ptr<Device>& device, const GemmChoice&
     program.record(ops::Copy{.from = layer.y, .to = layer.copied});
   }
   if (const auto built = program.build(); !built) return built.error();
-  for (int runs = is_cpu ? 1 : 2; runs > 0; --runs) {  // the first is slower
+  double least_ms = 0;
+  for (int run = 0; run < kRuns; ++run) {  // the first is slower, and others may want the machine
     if (const auto done = program.run(); !done) return done.error();
+    const double ms = program.stage_times_ms().front().second;
+    least_ms = run == 0 ? ms : std::min(least_ms, ms);
   }
   const double most = choice.family == GemmFamily::kMatrix ? kLargestOfMatrix : kLargest;
   for (std::size_t i = 0; i < kLayers.size(); ++i) {
@@ -140,7 +144,7 @@ Result<double> try_gemm(const std::shared_ptr<Device>& device, const GemmChoice&
                                name_of(choice), kLayers[i].out, kLayers[i].in, most, off)};
     }
   }
-  return program.stage_times_ms().front().second;
+  return least_ms;
 }
 
 }  // namespace flowdlo::vulkan
