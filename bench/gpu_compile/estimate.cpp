@@ -78,7 +78,9 @@ Share& share_of(FrameEstimate& estimate, const vulkan::KernelSpec& kernel) {
 
 const std::vector<Card>& cards() {
   static const std::vector<Card> all{{"navi21", "Radeon RX 6900 XT (Navi 21)", 80, 2.25},
-                                     {"gfx1100", "Radeon RX 7900 XTX (Navi 31)", 96, 2.5}};
+                                     {"gfx1100", "Radeon RX 7900 XTX (Navi 31)", 96, 2.5},
+                                     // The same card, as Mesa 25 names it, which makes pairs.
+                                     {"navi31", "Radeon RX 7900 XTX (Navi 31)", 96, 2.5, 2}};
   return all;
 }
 
@@ -156,7 +158,7 @@ FrameEstimate estimate(const FrameWork& work, const std::vector<CompiledKernel>&
     Share& share = share_of(total, spec);
     share.dispatches += 1;
     share.flop += flop;
-    share.limit_ms += flop / 2 / (simds * kLanesOfSimd) * cycle_ms;
+    share.limit_ms += flop / 2 / (simds * kLanesOfSimd * card.multiply_adds) * cycle_ms;
     share.full_ms += invocations / kInvocationsCounted * cycles / simds * cycle_ms;
     share.dispatched_ms += std::max(alone, busiest / kInvocationsCounted * cycles) * cycle_ms;
   }

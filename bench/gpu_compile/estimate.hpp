@@ -14,7 +14,8 @@ struct Card {
   std::string family;  ///< as RADV names it
   std::string name;
   int compute_units = 0;
-  double clock_ghz = 0;  ///< boost
+  double clock_ghz = 0;   ///< boost
+  int multiply_adds = 1;  ///< of a lane in a cycle: 2 where the compiler makes pairs of them
 };
 
 /// What its maker says: 80 units at 2.25 GHz (23.0 TFLOP/s) and 96 units at 2.5 GHz (61.4 TFLOP/s

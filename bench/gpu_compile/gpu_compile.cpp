@@ -22,9 +22,9 @@ namespace {
 
 // One or two for each generation of instructions, as RADV of Mesa 22.3 to 25 knows them. Older ones
 // ("tahiti", "hawaii") may be asked for: they need the program clrxdisasm for loops to be found.
-const std::vector<std::string> kFamilies{"polaris10", "vega10",  "vega20",  "renoir",
-                                         "navi10",    "navi21",  "vangogh", "gfx1036",
-                                         "gfx1100",   "gfx1103", "gfx1200"};
+const std::vector<std::string> kFamilies{"polaris10", "vega10", "vega20",  "renoir",
+                                         "navi10",    "navi21", "vangogh", "gfx1036",
+                                         "gfx1100",   "navi31", "gfx1200"};
 
 struct Options {
   std::vector<std::string> families = kFamilies;
@@ -199,8 +199,7 @@ int look_at_families(const Options& options) {
     int status = 0;
     if (child < 0 || ::waitpid(child, &status, 0) != child) return 1;
     if (WIFSIGNALED(status)) {
-      faults +=
-          fmt::format("{}: the driver ended it with signal {}\n", family, WTERMSIG(status));
+      faults += fmt::format("{}: the driver ended it with signal {}\n", family, WTERMSIG(status));
     } else if (WEXITSTATUS(status) != 0) {
       faults += fmt::format("{}: not compiled, as said above\n", family);
     }

@@ -125,7 +125,8 @@ TEST_P(EveryKernel, CompilesWithoutSpillsWithinSharedMemory) {
 INSTANTIATE_TEST_SUITE_P(Of, EveryKernel,
                          ::testing::Values(Family{"polaris10", false}, Family{"vega10", false},
                                            Family{"navi10", true}, Family{"navi21", true},
-                                           Family{"gfx1100", true}),
+                                           Family{"gfx1100", true}, Family{"navi31", true},
+                                           Family{"gfx1200", true}),
                          [](const auto& family) { return std::string(family.param.name); });
 
 class Cards : public ::testing::TestWithParam<Card> {};
