@@ -117,6 +117,8 @@ struct VulkanMoment {
 /// before is finished first. `signals` come once `waits` have, whatever error the call returns, but
 /// where a semaphore is null; with kDeviceLost and kOutOfMemory they may not: the counters tell.
 struct VulkanFrame {
+  VulkanFrame() = default;  ///< so that estimate({.width = ...}) goes on to mean a Frame
+
   int width = 0;   ///< pixels, 1..4096
   int height = 0;  ///< pixels, 1..4096
   Intrinsics intrinsics;

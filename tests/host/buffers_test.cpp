@@ -265,6 +265,11 @@ TEST_F(HostTest, GetsNoFrameFromItsBuffersByAnEstimatorOnAnotherDevice) {
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().code, ErrorCode::kBadInput);
   EXPECT_THAT(refused.error().message, HasSubstr("make it with a VulkanHost"));
+  // In braces it is a Frame, here too, where both are known.
+  const auto nothing = made->estimate(
+      {.width = 0, .height = 1, .intrinsics = {}, .depth_m = {}, .mask = {}, .color_bgr = {}});
+  ASSERT_FALSE(nothing);
+  EXPECT_THAT(nothing.error().message, HasSubstr("Frame."));
 }
 
 }  // namespace
