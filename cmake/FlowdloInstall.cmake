@@ -20,8 +20,12 @@ if(FLOWDLO_EMBEDS_WEIGHTS AND FLOWDLO_LIBRARY_TYPE STREQUAL "STATIC_LIBRARY")
   install(TARGETS flowdlo_embedded_weights EXPORT flowdloTargets
           ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT development)
 endif()
+set(left_out)
+if(NOT FLOWDLO_WITH_VULKAN)  # what it declares is not there
+  set(left_out PATTERN "vulkan.hpp" EXCLUDE)
+endif()
 install(DIRECTORY "${PROJECT_SOURCE_DIR}/include/flowdlo"
-        DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}" COMPONENT development FILES_MATCHING PATTERN "*.hpp" PATTERN "*.h")
+        DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}" COMPONENT development FILES_MATCHING PATTERN "*.hpp" PATTERN "*.h" ${left_out})
 install(FILES "${PROJECT_BINARY_DIR}/include/flowdlo/version.hpp"
         DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/flowdlo" COMPONENT development)
 install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" DESTINATION "${FLOWDLO_INSTALL_DATADIR}"

@@ -13,10 +13,13 @@
 
 #ifdef FLOWDLO_WITH_VULKAN
 #include "vulkan/backend.hpp"
+#include "vulkan/readback.hpp"
 #endif
 
 namespace flowdlo::estimator {
 namespace {
+
+constexpr const char* kAuto = "auto";
 
 #ifdef FLOWDLO_WITH_VULKAN
 
@@ -45,18 +48,44 @@ vulkan::Probing probing_of(const Config& config) {
   return probing;
 }
 
+BackEnd on_device(const Config& config, const std::shared_ptr<vulkan::Device>& device) {
+  const DeviceReport& report = vulkan::report(*device);
+  const vulkan::ProgramOptions options{.timeout_ms = timeout_ms(config, report.kind),
+                                       .pipeline_cache = cache_folder(std::getenv)};
+  return {report.name, [device, options] { return vulkan::create_program(device, options); }};
+}
+
 Result<BackEnd> open_vulkan(const Config& config, const std::string& wanted) {
   auto opened = vulkan::open_device({.wanted = wanted,
                                      .allow_cpu_driver = true,
                                      .validation = config.validation,
                                      .probing = probing_of(config)});
   if (!opened) return opened.error();
-  const auto device = *opened;
-  const DeviceReport& report = vulkan::report(*device);
-  const vulkan::ProgramOptions options{.timeout_ms = timeout_ms(config, report.kind),
-                                       .pipeline_cache = cache_folder(std::getenv)};
-  return BackEnd{report.name,
-                 [device, options] { return vulkan::create_program(device, options); }};
+  return on_device(config, *opened);
+}
+
+Result<BackEnd> open_handed_over(const Config& config, const VulkanHost& host) {
+  if (config.device != kAuto && config.device != "vulkan") {
+    return Error{ErrorCode::kBadInput,
+                 "Config.device: expected \"auto\" or \"vulkan\" beside a VulkanHost, got \"" +
+                     config.device + "\"; leave out the VulkanHost for a device of FlowDLO's own"};
+  }
+  const auto adopted = vulkan::adopt_device(host);
+  if (!adopted) return adopted.error();
+  BackEnd back_end = on_device(config, *adopted);
+  if (config.device == kAuto) {
+    const Verdict verdict = self_test(back_end.make_program);
+    if (!verdict.passed) {
+      return Error{ErrorCode::kNoDevice,
+                   "VulkanHost.device: expected one whose self-test passes, got \"" +
+                       back_end.name + "\": " + verdict.text +
+                       "; update its driver, or take the device \"cpu\""};
+    }
+  }
+  const auto readback = std::make_shared<vulkan::Readback>(
+      *adopted, timeout_ms(config, vulkan::report(**adopted).kind));
+  back_end.fetch = [readback](const VulkanFrame& frame) { return readback->read(frame); };
+  return back_end;
 }
 
 /// Usable devices in the order in which "auto" tries them.
@@ -87,6 +116,13 @@ Result<BackEnd> open_vulkan(const Config& config, const std::string&) {
                                          "\"; this library was built without Vulkan"};
 }
 
+Result<BackEnd> open_handed_over(const Config&, const VulkanHost&) {
+  return Error{
+      ErrorCode::kNoDevice,
+      "VulkanHost: expected a library with Vulkan, got one that was built without; build it "
+      "with FLOWDLO_WITH_VULKAN=ON"};
+}
+
 BackEnd choose_automatically(const Config& config) { return cpu_back_end(config.threads); }
 
 #endif
@@ -99,8 +135,12 @@ BackEnd cpu_back_end(int threads) {
 
 Result<BackEnd> choose_back_end(const Config& config) {
   if (config.device == "cpu") return cpu_back_end(config.threads);
-  if (config.device == "auto") return choose_automatically(config);
+  if (config.device == kAuto) return choose_automatically(config);
   return open_vulkan(config, config.device);
+}
+
+Result<BackEnd> host_back_end(const Config& config, const VulkanHost& host) {
+  return open_handed_over(config, host);
 }
 
 }  // namespace flowdlo::estimator

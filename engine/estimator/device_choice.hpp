@@ -1,22 +1,36 @@
 // Which back end a Config asks for, opened.
 #pragma once
 
+#include <functional>
 #include <string>
 
 #include "flow/sampler.hpp"
 #include "flowdlo/config.hpp"
+#include "flowdlo/frame.hpp"
 #include "flowdlo/result.hpp"
 
+namespace flowdlo {
+struct VulkanFrame;
+struct VulkanHost;
+}  // namespace flowdlo
+
 namespace flowdlo::estimator {
+
+/// A frame in buffers of the host's device as one in memory, good until the next.
+using Fetch = std::function<Result<Frame>(const VulkanFrame&)>;
 
 struct BackEnd {
   std::string name;  ///< "cpu", or the Vulkan device's name
   flow::ProgramFactory make_program;
+  Fetch fetch{};  ///< of a device that the host handed over; of others empty
 };
 
 [[nodiscard]] BackEnd cpu_back_end(int threads);
 
 /// Fails with kNoDevice. "auto" never fails: a machine without a GPU that works has a CPU.
 [[nodiscard]] Result<BackEnd> choose_back_end(const Config& config);
+
+/// On the host's device, with "auto" once its self-test passes. Fails with kBadInput and kNoDevice.
+[[nodiscard]] Result<BackEnd> host_back_end(const Config& config, const VulkanHost& host);
 
 }  // namespace flowdlo::estimator

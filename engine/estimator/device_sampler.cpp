@@ -27,22 +27,24 @@ bool replaceable(const Config& config, const std::string& device, const Error& e
 
 Result<DeviceSampler> DeviceSampler::create(const Config& config, flow::WeightsSource weights,
                                             BackEnd back_end, Pace pace) {
+  const bool comes_back = !back_end.fetch;
   auto sampler = flow::Sampler::create(weights, back_end.make_program, sampler_config(config));
   if (sampler) {
-    return DeviceSampler(config, std::move(weights), pace, std::move(back_end.name),
+    return DeviceSampler(config, std::move(weights), pace, comes_back, std::move(back_end.name),
                          *std::move(sampler));
   }
   if (!replaceable(config, back_end.name, sampler.error())) return sampler.error();
   auto cpu = cpu_back_end(config.threads);
   auto replacement = flow::Sampler::create(weights, cpu.make_program, sampler_config(config));
   if (!replacement) return replacement.error();
-  DeviceSampler result(config, std::move(weights), pace, std::move(cpu.name),
+  DeviceSampler result(config, std::move(weights), pace, comes_back, std::move(cpu.name),
                        *std::move(replacement));
   result.begin_comeback();
   return result;
 }
 
 void DeviceSampler::begin_comeback() {
+  if (!comes_back_) return;
   Pace pace = pace_;
   pace.first = next_;
   comeback_ = std::make_unique<Comeback>(

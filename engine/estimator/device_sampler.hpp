@@ -17,9 +17,10 @@
 
 namespace flowdlo::estimator {
 
-/// Where the device was left to us ("auto"), one that fails is replaced by the CPU, and tried again
-/// beside the frames (Comeback) until it is there again. One that is lost once more within
-/// Pace::longest is tried after twice the time that it was left alone before.
+/// Where the device was left to us ("auto"), one that fails is replaced by the CPU: for good where
+/// it is the host's, which nobody here can make anew; any other is tried again beside the frames
+/// (Comeback) until it is there again. One that is lost once more within Pace::longest is tried
+/// after twice the time that it was left alone before.
 class DeviceSampler {
  public:
   /// `config`: as it is resolved. Fails as flow::Sampler::create does; with "auto" only for want of
@@ -40,12 +41,13 @@ class DeviceSampler {
  private:
   using Clock = std::chrono::steady_clock;
 
-  DeviceSampler(const Config& config, flow::WeightsSource weights, Pace pace, std::string device,
-                flow::Sampler sampler)
+  DeviceSampler(const Config& config, flow::WeightsSource weights, Pace pace, bool comes_back,
+                std::string device, flow::Sampler sampler)
       : config_(config),
         weights_(std::move(weights)),
         pace_(pace),
         next_(pace.first),
+        comes_back_(comes_back),
         device_(std::move(device)),
         sampler_(std::move(sampler)) {}
 
@@ -56,6 +58,7 @@ class DeviceSampler {
   flow::WeightsSource weights_;
   Pace pace_;
   std::chrono::milliseconds next_;  // how long a device that is lost now is left alone at first
+  bool comes_back_;                 // it is a device of our own
   std::string device_;
   flow::Sampler sampler_;
   std::optional<Clock::time_point> back_since_;

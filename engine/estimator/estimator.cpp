@@ -2,9 +2,6 @@
 #include "flowdlo/estimator.hpp"
 
 #include <unistd.h>
-#ifdef __GLIBC__
-#include <malloc.h>
-#endif
 
 #include <algorithm>
 #include <optional>
@@ -41,14 +38,6 @@
 
 namespace flowdlo {
 namespace {
-
-/// To the system, what making an estimator used once: a driver's compiler and the decoded weights
-/// leave 8 to 15 MB of free pieces between what stays.
-void return_free_memory() {
-#ifdef __GLIBC__
-  ::malloc_trim(0);
-#endif
-}
 
 /// The caller's view of what the gate chose.
 Estimate conclude(const estimator::Returned& returned,
@@ -95,7 +84,10 @@ struct FLOWDLO_HIDDEN Estimator::Impl {
   estimator::Cost gate_cost{0};
   pid_t process = ::getpid();  // in a process forked from this one threads and device are missing
 
-  static Result<std::unique_ptr<Impl>> create(const Config& config);
+  estimator::Fetch fetch{};  // of the host's device
+
+  /// `host`: null for a device of our own.
+  static Result<std::unique_ptr<Impl>> create(const Config& config, const VulkanHost* host);
   void learn_costs();
   Result<Estimate> estimate(const Frame& frame, const Hints& hints, Tensors* tensors,
                             const estimator::Budget& budget,
@@ -110,7 +102,8 @@ struct FLOWDLO_HIDDEN Estimator::Impl {
   [[nodiscard]] std::vector<int> assign(const std::vector<estimator::Hypothesis>& hypotheses) const;
 };
 
-Result<std::unique_ptr<Estimator::Impl>> Estimator::Impl::create(const Config& wanted) {
+Result<std::unique_ptr<Estimator::Impl>> Estimator::Impl::create(const Config& wanted,
+                                                                 const VulkanHost* host) {
   if (auto checked = estimator::check(wanted); !checked) return checked.error();
   const auto location = wanted.weights.empty()
                             ? weights::default_location()
@@ -119,13 +112,17 @@ Result<std::unique_ptr<Estimator::Impl>> Estimator::Impl::create(const Config& w
   // Opening a driver takes as long as reading the weights: side by side, where a thread is to be
   // had.
   const bool beside = threads::count(wanted.threads) > 1;
-  auto choice = threads::aside(beside, [&] { return estimator::choose_back_end(wanted); });
+  auto choice = threads::aside(beside, [&] {
+    return host != nullptr ? estimator::host_back_end(wanted, *host)
+                           : estimator::choose_back_end(wanted);
+  });
   auto loaded = weights::load_and_keep(location->model);
   auto back_end = choice.get();
   if (!loaded) return loaded.error();
   const weights::Metadata metadata = loaded->weights->metadata;
   const Config config = estimator::resolved(wanted, metadata);
   if (!back_end) return back_end.error();
+  estimator::Fetch fetch = back_end->fetch;
   auto sampler =
       estimator::DeviceSampler::create(config, estimator::source_of(*loaded), *std::move(back_end));
   if (!sampler) return sampler.error();
@@ -133,6 +130,7 @@ Result<std::unique_ptr<Estimator::Impl>> Estimator::Impl::create(const Config& w
   if (!field) return field.error();
   auto impl = std::unique_ptr<Impl>(  // an aggregate, which Clang 14 makes by braces only
       new Impl{config, metadata, *std::move(sampler), *std::move(field)});
+  impl->fetch = std::move(fetch);
   if (config.budget_ms > 0) impl->learn_costs();
   return impl;
 }
@@ -295,13 +293,19 @@ Result<Estimate> Estimator::Impl::estimate(const Frame& frame, const Hints& hint
   return estimate;
 }
 
-Result<Estimator> Estimator::create(const Config& config) {
+Result<Estimator> Estimator::make(const Config& config, const VulkanHost* host) {
   return guard::guarded("Estimator::create", [&]() -> Result<Estimator> {
-    auto impl = Impl::create(config);
+    auto impl = Impl::create(config, host);
     if (!impl) return impl.error();
-    return_free_memory();
+    estimator::return_free_memory();
     return Estimator(*std::move(impl));
   });
+}
+
+Result<Estimator> Estimator::create(const Config& config) { return make(config, nullptr); }
+
+Result<Estimator> Estimator::create(const Config& config, const VulkanHost& host) {
+  return make(config, &host);
 }
 
 Result<void> Estimator::usable() const {
@@ -336,6 +340,22 @@ Result<Ropes> Estimator::estimate_ropes(const Frame& frame) {
         },
         [&](float rope_width_px) { return impl_->axes(frame, rope_width_px, budget); });
   });
+}
+
+Result<Frame> Estimator::fetch(const VulkanFrame& frame) {
+  return guard::guarded("Estimator::fetch", [&]() -> Result<Frame> {
+    if (auto fine = usable(); !fine) return fine.error();
+    if (impl_->fetch) return impl_->fetch(frame);
+    return Error{
+        ErrorCode::kBadInput,
+        "VulkanFrame: expected an estimator on the host's device, got one on its own; make "
+        "it with a VulkanHost"};
+  });
+}
+
+Result<Estimate> Estimator::estimate(const VulkanFrame& frame) {
+  const auto fetched = fetch(frame);
+  return fetched ? run(*fetched, {}, nullptr) : fetched.error();
 }
 
 Result<Estimate> Estimator::estimate(const Frame& frame) { return run(frame, {}, nullptr); }

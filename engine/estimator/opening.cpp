@@ -1,5 +1,9 @@
 #include "estimator/opening.hpp"
 
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
+
 #include <memory>
 #include <utility>
 
@@ -53,6 +57,12 @@ Result<std::optional<field::Network>> open_field(const Config& config,
       std::make_shared<const weights::FieldWeights>(*std::move(loaded)), cpu.make_program);
   if (!network) return network.error();
   return std::optional(*std::move(network));
+}
+
+void return_free_memory() {
+#ifdef __GLIBC__
+  ::malloc_trim(0);
+#endif
 }
 
 }  // namespace flowdlo::estimator

@@ -17,6 +17,10 @@
 #include "vulkan/gemm_choice.hpp"
 #include "vulkan/probe.hpp"
 
+namespace flowdlo {
+struct VulkanHost;
+}
+
 namespace flowdlo::vulkan {
 
 class Device;
@@ -47,6 +51,10 @@ struct Survey {
 /// Opens the best device that fits. Fails with kNoDevice and one sentence a device. Devices are
 /// independent of one another: each has its own instance.
 [[nodiscard]] Result<std::shared_ptr<Device>> open_device(const Selection& selection);
+
+/// The host's device, which is never destroyed here. Fails with kBadInput, naming every fault of
+/// `host`, and with kNoDevice, naming everything that its device lacks.
+[[nodiscard]] Result<std::shared_ptr<Device>> adopt_device(const VulkanHost& host);
 
 [[nodiscard]] const DeviceReport& report(const Device& device);
 

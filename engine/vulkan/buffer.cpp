@@ -73,8 +73,10 @@ Result<Buffer> Buffer::create(const Device& device, VkDeviceSize bytes, VkBuffer
                                         .allocationSize = needs.size,
                                         .memoryTypeIndex = *type};
   VkDeviceMemory memory = VK_NULL_HANDLE;
-  const VkResult made = api.vkAllocateMemory(device.handle(), &allocation, nullptr, &memory);
-  result.memory_ = Owned<VkDeviceMemory>(device.handle(), memory, api.vkFreeMemory);
+  const VkResult made =
+      api.vkAllocateMemory(device.handle(), &allocation, device.allocation(), &memory);
+  result.memory_ =
+      Owned<VkDeviceMemory>(device.handle(), memory, api.vkFreeMemory, device.allocation());
   const auto allocated =
       device.check(made, fmt::format("vkAllocateMemory({}, {} bytes)", name, needs.size));
   if (!allocated) return allocated.error();

@@ -91,6 +91,7 @@ Result<void> Device::create_device() {
       .computeFullSubgroups = facts_.full_subgroups ? VK_TRUE : VK_FALSE};
   void* chain = nullptr;
   std::vector<const char*> extensions;
+  if (facts_.portability) extensions.push_back(kPortabilitySubset);
   if (facts_.fixes_lanes) {
     chain = &control;
     extensions.push_back(VK_EXT_SUBGROUP_SIZE_CONTROL_EXTENSION_NAME);
@@ -143,24 +144,43 @@ Result<void> Device::load_functions() {
 Device::~Device() {
   kernels_.clear();
   pipeline_cache_ = {};
-  if (handle_ != VK_NULL_HANDLE && api_.vkDestroyDevice != nullptr) {
+  if (!lent_ && handle_ != VK_NULL_HANDLE && api_.vkDestroyDevice != nullptr) {
     api_.vkDestroyDevice(handle_, nullptr);
   }
 }
 
-Result<void> Device::submit(VkCommandBuffer commands, VkFence fence) {
+Result<void> Device::submit(VkCommandBuffer commands, VkFence fence, const Meeting& meeting) {
+  const auto count = [](const Moments& moments) {
+    return static_cast<std::uint32_t>(moments.semaphores.size());
+  };
+  const std::vector<VkPipelineStageFlags> stages(meeting.waits.semaphores.size(),
+                                                 commands != VK_NULL_HANDLE
+                                                     ? VK_PIPELINE_STAGE_TRANSFER_BIT
+                                                     : VK_PIPELINE_STAGE_TOP_OF_PIPE_BIT);
+  const VkTimelineSemaphoreSubmitInfo values{
+      .sType = VK_STRUCTURE_TYPE_TIMELINE_SEMAPHORE_SUBMIT_INFO,
+      .pNext = nullptr,
+      .waitSemaphoreValueCount = count(meeting.waits),
+      .pWaitSemaphoreValues = meeting.waits.values.data(),
+      .signalSemaphoreValueCount = count(meeting.signals),
+      .pSignalSemaphoreValues = meeting.signals.values.data()};
+  const bool meets = count(meeting.waits) + count(meeting.signals) > 0;
   const VkSubmitInfo info{.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO,
-                          .pNext = nullptr,
-                          .waitSemaphoreCount = 0,
-                          .pWaitSemaphores = nullptr,
-                          .pWaitDstStageMask = nullptr,
-                          .commandBufferCount = 1,
+                          .pNext = meets ? &values : nullptr,
+                          .waitSemaphoreCount = count(meeting.waits),
+                          .pWaitSemaphores = meeting.waits.semaphores.data(),
+                          .pWaitDstStageMask = stages.data(),
+                          .commandBufferCount = commands != VK_NULL_HANDLE ? 1U : 0U,
                           .pCommandBuffers = &commands,
-                          .signalSemaphoreCount = 0,
-                          .pSignalSemaphores = nullptr};
+                          .signalSemaphoreCount = count(meeting.signals),
+                          .pSignalSemaphores = meeting.signals.semaphores.data()};
   const std::lock_guard lock(queue_mutex_);
   ++submits_;
-  return check(api_.vkQueueSubmit(queue_, 1, &info, fence), "vkQueueSubmit");
+  const bool locks = lent_ && lent_->lock != nullptr;
+  if (locks) lent_->lock(lent_->user);
+  const VkResult submitted = api_.vkQueueSubmit(queue_, 1, &info, fence);
+  if (locks) lent_->unlock(lent_->user);
+  return check(submitted, "vkQueueSubmit");
 }
 
 Result<std::vector<const Kernel*>> Device::kernels(std::span<const KernelSpec> specs,
@@ -184,24 +204,39 @@ Result<std::vector<const Kernel*>> Device::kernels(std::span<const KernelSpec> s
   return kernels;
 }
 
-Result<std::shared_ptr<Device>> Device::open(std::unique_ptr<Instance> instance,
-                                             const PhysicalDevice& physical) {
-  std::shared_ptr<Device> device(new Device(std::move(instance), physical));
-  const auto created = device->create_device();
-  if (!created) return created.error();
-  const auto loaded = device->load_functions();
+Result<void> Device::complete(std::uint32_t queue_index) {
+  const auto loaded = load_functions();
   if (!loaded) return loaded.error();
-  device->api_.vkGetDeviceQueue(device->handle_, physical.queue_family, 0, &device->queue_);
+  api_.vkGetDeviceQueue(handle_, facts_.queue_family, queue_index, &queue_);
   const VkPipelineCacheCreateInfo info{.sType = VK_STRUCTURE_TYPE_PIPELINE_CACHE_CREATE_INFO,
                                        .pNext = nullptr,
                                        .flags = 0,
                                        .initialDataSize = 0,
                                        .pInitialData = nullptr};
-  auto cache =
-      device->create(device->api_.vkCreatePipelineCache, device->api_.vkDestroyPipelineCache, info,
-                     VK_OBJECT_TYPE_PIPELINE_CACHE, "kernels");
+  auto cache = create(api_.vkCreatePipelineCache, api_.vkDestroyPipelineCache, info,
+                      VK_OBJECT_TYPE_PIPELINE_CACHE, "kernels");
   if (!cache) return cache.error();
-  device->pipeline_cache_ = *std::move(cache);
+  pipeline_cache_ = *std::move(cache);
+  return {};
+}
+
+Result<std::shared_ptr<Device>> Device::open(std::unique_ptr<Instance> instance,
+                                             const PhysicalDevice& physical) {
+  std::shared_ptr<Device> device(new Device(std::move(instance), physical));
+  const auto created = device->create_device();
+  if (!created) return created.error();
+  const auto completed = device->complete(0);
+  if (!completed) return completed.error();
+  return device;
+}
+
+Result<std::shared_ptr<Device>> Device::adopt(std::unique_ptr<Instance> instance,
+                                              const PhysicalDevice& physical, const Lent& lent) {
+  std::shared_ptr<Device> device(new Device(std::move(instance), physical));
+  device->lent_ = lent;
+  device->handle_ = lent.device;
+  const auto completed = device->complete(lent.queue_index);
+  if (!completed) return completed.error();
   return device;
 }
 

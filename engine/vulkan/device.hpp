@@ -22,11 +22,39 @@
 
 namespace flowdlo::vulkan {
 
+/// A VkDevice that a host made and keeps, and its queue.
+struct Lent {
+  VkDevice device = VK_NULL_HANDLE;
+  std::uint32_t queue_index = 0;
+  void (*lock)(void* user) = nullptr;  ///< around each submission; both, or neither
+  void (*unlock)(void* user) = nullptr;
+  void* user = nullptr;
+  std::optional<VkAllocationCallbacks> allocation{};
+  bool timeline = false;  ///< has timeline semaphores
+};
+
+/// Timeline semaphores with a value each.
+struct Moments {
+  std::vector<VkSemaphore> semaphores{};
+  std::vector<std::uint64_t> values{};
+};
+
+/// What a submission waits for, and what comes once it is done.
+struct Meeting {
+  Moments waits{};
+  Moments signals{};
+};
+
 /// Safe to share between threads.
 class Device {
  public:
   [[nodiscard]] static Result<std::shared_ptr<Device>> open(std::unique_ptr<Instance> instance,
                                                             const PhysicalDevice& physical);
+
+  /// Never destroys the VkDevice, nor what `instance` borrows.
+  [[nodiscard]] static Result<std::shared_ptr<Device>> adopt(std::unique_ptr<Instance> instance,
+                                                             const PhysicalDevice& physical,
+                                                             const Lent& lent);
 
   [[nodiscard]] const PhysicalDevice& facts() const { return facts_; }
   [[nodiscard]] const Instance& instance() const { return *instance_; }
@@ -34,8 +62,17 @@ class Device {
   [[nodiscard]] VkDevice handle() const { return handle_; }
   [[nodiscard]] VkPipelineCache pipeline_cache() const { return pipeline_cache_.get(); }
 
-  /// The table's one entry that nobody calls directly: counted, and one caller at a time.
-  [[nodiscard]] Result<void> submit(VkCommandBuffer commands, VkFence fence);
+  /// What objects of this device are made and destroyed with.
+  [[nodiscard]] const VkAllocationCallbacks* allocation() const {
+    return lent_ && lent_->allocation ? &*lent_->allocation : nullptr;
+  }
+  /// Whether its submissions may meet timeline semaphores.
+  [[nodiscard]] bool has_timelines() const { return lent_ && lent_->timeline; }
+
+  /// The table's one entry that nobody calls directly: counted, and one caller at a time, in the
+  /// host's lock where the device is lent. No `commands`: `meeting` alone.
+  [[nodiscard]] Result<void> submit(VkCommandBuffer commands, VkFence fence,
+                                    const Meeting& meeting = {});
   [[nodiscard]] std::uint64_t submit_count() const { return submits_; }
 
   /// The kernel of each spec, in order; those not yet known are compiled, several at a time. They
@@ -60,9 +97,9 @@ class Device {
       void(VKAPI_PTR* destroy)(VkDevice, Handle, const VkAllocationCallbacks*), const Info& info,
       VkObjectType type, std::string_view object_name) const {
     Handle object = VK_NULL_HANDLE;
-    const VkResult result = make(handle_, &info, nullptr, &object);
+    const VkResult result = make(handle_, &info, allocation(), &object);
     if (result != VK_SUCCESS) return failed(result, type, object_name);
-    Owned<Handle> owned(handle_, object, destroy);
+    Owned<Handle> owned(handle_, object, destroy, allocation());
     name(type, object, object_name);
     return owned;
   }
@@ -81,12 +118,14 @@ class Device {
       : instance_(std::move(instance)), facts_(facts) {}
 
   [[nodiscard]] Result<void> create_device();
+  [[nodiscard]] Result<void> complete(std::uint32_t queue_index);
   [[nodiscard]] Result<void> load_functions();
   [[nodiscard]] Error failed(VkResult result, VkObjectType type, std::string_view name) const;
   void name_object(VkObjectType type, std::uint64_t object, const std::string& name) const;
 
   std::unique_ptr<Instance> instance_;
   PhysicalDevice facts_;
+  std::optional<Lent> lent_;
   VkDevice handle_ = VK_NULL_HANDLE;
   VolkDeviceTable api_{};
   VkQueue queue_ = VK_NULL_HANDLE;

@@ -1,7 +1,6 @@
 #include "vulkan/instance.hpp"
 
 #include <algorithm>
-#include <array>
 #include <exception>
 #include <string_view>
 
@@ -23,6 +22,20 @@ bool has_validation_layer(const Loader& loader) {
   if (enumerate(&count, layers.data()) < VK_SUCCESS) return false;
   return std::any_of(layers.begin(), layers.end(), [](const VkLayerProperties& layer) {
     return std::string_view(layer.layerName) == kValidationLayer;
+  });
+}
+
+/// Whether devices of which only a subset of Vulkan is there (MoltenVK's) must be asked for.
+bool hides_portable_devices(const Loader& loader) {
+  const auto enumerate = reinterpret_cast<PFN_vkEnumerateInstanceExtensionProperties>(
+      loader.find(VK_NULL_HANDLE, "vkEnumerateInstanceExtensionProperties"));
+  std::uint32_t count = 0;
+  if (enumerate == nullptr || enumerate(nullptr, &count, nullptr) != VK_SUCCESS) return false;
+  std::vector<VkExtensionProperties> extensions(count);
+  if (enumerate(nullptr, &count, extensions.data()) < VK_SUCCESS) return false;
+  return std::any_of(extensions.begin(), extensions.end(), [](const auto& extension) {
+    return std::string_view(extension.extensionName) ==
+           VK_KHR_PORTABILITY_ENUMERATION_EXTENSION_NAME;
   });
 }
 
@@ -78,7 +91,7 @@ Instance::~Instance() {
   if (messenger_ != VK_NULL_HANDLE) {
     api_.vkDestroyDebugUtilsMessengerEXT(handle_, messenger_, nullptr);
   }
-  if (handle_ != VK_NULL_HANDLE && api_.vkDestroyInstance != nullptr) {
+  if (owned_ && handle_ != VK_NULL_HANDLE && api_.vkDestroyInstance != nullptr) {
     api_.vkDestroyInstance(handle_, nullptr);
   }
 }
@@ -86,8 +99,12 @@ Instance::~Instance() {
 Result<std::unique_ptr<Instance>> Instance::create(std::shared_ptr<const Loader> loader,
                                                    bool validation) {
   const bool layered = validation && has_validation_layer(*loader);
-  const std::array extensions{VK_EXT_DEBUG_UTILS_EXTENSION_NAME,
-                              VK_EXT_VALIDATION_FEATURES_EXTENSION_NAME};
+  std::vector<const char*> extensions;
+  if (layered) {
+    extensions = {VK_EXT_DEBUG_UTILS_EXTENSION_NAME, VK_EXT_VALIDATION_FEATURES_EXTENSION_NAME};
+  }
+  const bool portable = hides_portable_devices(*loader);
+  if (portable) extensions.push_back(VK_KHR_PORTABILITY_ENUMERATION_EXTENSION_NAME);
   const VkValidationFeatureEnableEXT synchronization =
       VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT;
   const VkValidationFeaturesEXT features{.sType = VK_STRUCTURE_TYPE_VALIDATION_FEATURES_EXT,
@@ -103,14 +120,16 @@ Result<std::unique_ptr<Instance>> Instance::create(std::shared_ptr<const Loader>
                                       .pEngineName = "flowdlo",
                                       .engineVersion = 0,
                                       .apiVersion = VK_API_VERSION_1_1};
+  VkInstanceCreateFlags flags = 0;
+  if (portable) flags |= VK_INSTANCE_CREATE_ENUMERATE_PORTABILITY_BIT_KHR;
   const VkInstanceCreateInfo info{
       .sType = VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO,
       .pNext = layered ? &features : nullptr,
-      .flags = 0,
+      .flags = flags,
       .pApplicationInfo = &application,
       .enabledLayerCount = layered ? 1U : 0U,
       .ppEnabledLayerNames = &kValidationLayer,
-      .enabledExtensionCount = layered ? static_cast<std::uint32_t>(extensions.size()) : 0U,
+      .enabledExtensionCount = static_cast<std::uint32_t>(extensions.size()),
       .ppEnabledExtensionNames = extensions.data()};
   const auto create =
       reinterpret_cast<PFN_vkCreateInstance>(loader->find(VK_NULL_HANDLE, "vkCreateInstance"));
@@ -130,6 +149,17 @@ Result<std::unique_ptr<Instance>> Instance::create(std::shared_ptr<const Loader>
     if (!heard) return heard.error();
   }
   return instance;
+}
+
+Result<std::unique_ptr<Instance>> Instance::borrow(PFN_vkGetInstanceProcAddr get, VkInstance handle,
+                                                   bool debug) {
+  std::unique_ptr<Instance> instance(new Instance(Loader::of_host(get)));
+  instance->owned_ = false;
+  instance->handle_ = handle;
+  const auto loaded = instance->load_functions(debug);
+  if (loaded) return instance;
+  return Error{ErrorCode::kBadInput,
+               "VulkanHost.get_instance_proc_addr: " + loaded.error().message};
 }
 
 }  // namespace flowdlo::vulkan

@@ -36,6 +36,11 @@ class Instance {
   [[nodiscard]] static Result<std::unique_ptr<Instance>> create(
       std::shared_ptr<const Loader> loader, bool validation);
 
+  /// A host's, which is never destroyed here. `debug`: it was made with VK_EXT_debug_utils. Fails
+  /// with kBadInput where a function is missing.
+  [[nodiscard]] static Result<std::unique_ptr<Instance>> borrow(PFN_vkGetInstanceProcAddr get,
+                                                                VkInstance handle, bool debug);
+
   [[nodiscard]] const InstanceTable& api() const { return api_; }
   [[nodiscard]] VkInstance handle() const { return handle_; }
   [[nodiscard]] const Loader& loader() const { return *loader_; }
@@ -54,6 +59,7 @@ class Instance {
 
   std::shared_ptr<const Loader> loader_;
   VkInstance handle_ = VK_NULL_HANDLE;
+  bool owned_ = true;
   InstanceTable api_;
   VkDebugUtilsMessengerEXT messenger_ = VK_NULL_HANDLE;
   std::unique_ptr<MessageLog> log_ = std::make_unique<MessageLog>();

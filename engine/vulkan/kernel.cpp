@@ -95,8 +95,9 @@ Result<Owned<VkPipeline>> create_pipeline(const Device& device, const KernelSpec
       .basePipelineIndex = -1};
   VkPipeline pipeline = VK_NULL_HANDLE;
   const VkResult made = device.api().vkCreateComputePipelines(
-      device.handle(), device.pipeline_cache(), 1, &info, nullptr, &pipeline);
-  Owned<VkPipeline> owned(device.handle(), pipeline, device.api().vkDestroyPipeline);
+      device.handle(), device.pipeline_cache(), 1, &info, device.allocation(), &pipeline);
+  Owned<VkPipeline> owned(device.handle(), pipeline, device.api().vkDestroyPipeline,
+                          device.allocation());
   const auto created = device.check(made, fmt::format("vkCreateComputePipelines({})", spec.name()));
   if (!created) return created.error();
   device.name(VK_OBJECT_TYPE_PIPELINE, pipeline, spec.name());

@@ -20,7 +20,13 @@ std::string version_text(std::uint32_t packed) {
                      VK_API_VERSION_PATCH(packed));
 }
 
-Loader::~Loader() { dlclose(library_); }
+Loader::~Loader() {
+  if (library_ != nullptr) dlclose(library_);
+}
+
+std::shared_ptr<const Loader> Loader::of_host(PFN_vkGetInstanceProcAddr get) {
+  return std::shared_ptr<const Loader>(new Loader(nullptr, get));
+}
 
 Result<std::shared_ptr<const Loader>> Loader::open() {
   void* library = dlopen("libvulkan.so.1", RTLD_NOW | RTLD_LOCAL);

@@ -21,6 +21,9 @@ class Loader {
   [[nodiscard]] static Result<std::shared_ptr<const Loader>> open_driver(
       const std::string& library);
 
+  /// The host's, who keeps it loaded.
+  [[nodiscard]] static std::shared_ptr<const Loader> of_host(PFN_vkGetInstanceProcAddr get);
+
   [[nodiscard]] PFN_vkVoidFunction find(VkInstance instance, const char* name) const {
     return get_instance_proc_addr_(instance, name);
   }
@@ -35,7 +38,7 @@ class Loader {
   Loader(void* library, PFN_vkGetInstanceProcAddr get)
       : library_(library), get_instance_proc_addr_(get) {}
 
-  void* library_;
+  void* library_;  // null: the host's
   PFN_vkGetInstanceProcAddr get_instance_proc_addr_;
   std::string version_;
 };

@@ -33,28 +33,25 @@ DeviceKind kind_of(VkPhysicalDeviceType type) {
   }
 }
 
-bool has_extension(const InstanceTable& api, VkPhysicalDevice device, std::string_view name) {
-  std::uint32_t count = 0;
-  if (api.vkEnumerateDeviceExtensionProperties(device, nullptr, &count, nullptr) != VK_SUCCESS) {
-    return false;
+/// The family that is given. Otherwise the first with compute; one without graphics is preferred,
+/// it is never shared with a UI.
+void find_queue(const InstanceTable& api, PhysicalDevice& device, const Allowed& allowed) {
+  const auto families = queue_families(api, device.handle);
+  if (allowed.queue_family) {
+    const std::uint32_t given = *allowed.queue_family;
+    if (given >= families.size()) {
+      device.report.lacks.push_back(
+          fmt::format("queue family {} (has {})", given, families.size()));
+    } else if ((families[given].queueFlags & VK_QUEUE_COMPUTE_BIT) == 0) {
+      device.report.lacks.push_back(fmt::format("compute in queue family {}", given));
+    } else {
+      device.queue_family = given;
+      device.timestamp_bits = families[given].timestampValidBits;
+    }
+    return;
   }
-  std::vector<VkExtensionProperties> extensions(count);
-  if (api.vkEnumerateDeviceExtensionProperties(device, nullptr, &count, extensions.data()) <
-      VK_SUCCESS) {
-    return false;
-  }
-  return std::any_of(extensions.begin(), extensions.end(),
-                     [&](const auto& extension) { return name == extension.extensionName; });
-}
-
-/// The first family with compute; one without graphics is preferred, it is never shared with a UI.
-void find_queue(const InstanceTable& api, PhysicalDevice& device) {
-  std::uint32_t count = 0;
-  api.vkGetPhysicalDeviceQueueFamilyProperties(device.handle, &count, nullptr);
-  std::vector<VkQueueFamilyProperties> families(count);
-  api.vkGetPhysicalDeviceQueueFamilyProperties(device.handle, &count, families.data());
   std::optional<std::uint32_t> found;
-  for (std::uint32_t i = 0; i < count; ++i) {
+  for (std::uint32_t i = 0; i < families.size(); ++i) {
     if ((families[i].queueFlags & VK_QUEUE_COMPUTE_BIT) == 0) continue;
     const bool compute_alone = (families[i].queueFlags & VK_QUEUE_GRAPHICS_BIT) == 0;
     if (!found || (compute_alone && (families[*found].queueFlags & VK_QUEUE_GRAPHICS_BIT) != 0)) {
@@ -70,7 +67,7 @@ void find_queue(const InstanceTable& api, PhysicalDevice& device) {
 }
 
 void choose_lanes(const InstanceTable& api, PhysicalDevice& device,
-                  const VkPhysicalDeviceSubgroupProperties& subgroup) {
+                  const VkPhysicalDeviceSubgroupProperties& subgroup, const Allowed& allowed) {
   constexpr VkSubgroupFeatureFlags kNeeded =
       VK_SUBGROUP_FEATURE_BASIC_BIT | VK_SUBGROUP_FEATURE_SHUFFLE_BIT;
   std::uint32_t lanes = subgroup.subgroupSize;
@@ -83,7 +80,8 @@ void choose_lanes(const InstanceTable& api, PhysicalDevice& device,
         std::clamp(std::bit_ceil(std::max(lanes, 1U)), kFewestPlainLanes, kMostPlainLanes));
     return;
   }
-  if (has_extension(api, device.handle, VK_EXT_SUBGROUP_SIZE_CONTROL_EXTENSION_NAME)) {
+  if (allowed.size_control &&
+      has_extension(api, device.handle, VK_EXT_SUBGROUP_SIZE_CONTROL_EXTENSION_NAME)) {
     VkPhysicalDeviceSubgroupSizeControlPropertiesEXT sizes{};
     sizes.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_SIZE_CONTROL_PROPERTIES_EXT;
     VkPhysicalDeviceProperties2 properties{};
@@ -98,7 +96,8 @@ void choose_lanes(const InstanceTable& api, PhysicalDevice& device,
     api.vkGetPhysicalDeviceFeatures2(device.handle, &features);
     device.fixes_lanes = control.subgroupSizeControl == VK_TRUE &&
                          (sizes.requiredSubgroupSizeStages & VK_SHADER_STAGE_COMPUTE_BIT) != 0;
-    device.full_subgroups = device.fixes_lanes && control.computeFullSubgroups == VK_TRUE;
+    device.full_subgroups =
+        allowed.full_subgroups && device.fixes_lanes && control.computeFullSubgroups == VK_TRUE;
     if (device.fixes_lanes && device.report.kind != DeviceKind::kCpu) {
       lanes = std::clamp(kGpuLanes, sizes.minSubgroupSize, sizes.maxSubgroupSize);
     }
@@ -162,7 +161,33 @@ std::string hexadecimal(const std::uint8_t (&bytes)[VK_UUID_SIZE]) {
   return text;
 }
 
-PhysicalDevice describe(const Instance& instance, VkPhysicalDevice handle) {
+}  // namespace
+
+bool has_extension(const InstanceTable& api, VkPhysicalDevice device, std::string_view name) {
+  std::uint32_t count = 0;
+  if (api.vkEnumerateDeviceExtensionProperties(device, nullptr, &count, nullptr) != VK_SUCCESS) {
+    return false;
+  }
+  std::vector<VkExtensionProperties> extensions(count);
+  if (api.vkEnumerateDeviceExtensionProperties(device, nullptr, &count, extensions.data()) <
+      VK_SUCCESS) {
+    return false;
+  }
+  return std::any_of(extensions.begin(), extensions.end(),
+                     [&](const auto& extension) { return name == extension.extensionName; });
+}
+
+std::vector<VkQueueFamilyProperties> queue_families(const InstanceTable& api,
+                                                    VkPhysicalDevice device) {
+  std::uint32_t count = 0;
+  api.vkGetPhysicalDeviceQueueFamilyProperties(device, &count, nullptr);
+  std::vector<VkQueueFamilyProperties> families(count);
+  api.vkGetPhysicalDeviceQueueFamilyProperties(device, &count, families.data());
+  families.resize(count);
+  return families;
+}
+
+PhysicalDevice describe(const Instance& instance, VkPhysicalDevice handle, const Allowed& allowed) {
   const InstanceTable& api = instance.api();
   PhysicalDevice device;
   device.handle = handle;
@@ -201,14 +226,13 @@ PhysicalDevice describe(const Instance& instance, VkPhysicalDevice handle) {
     if (driver.driverID == VK_DRIVER_ID_MESA_LLVMPIPE) device.report.kind = DeviceKind::kCpu;
   }
   api.vkGetPhysicalDeviceMemoryProperties(handle, &device.memory);
-  find_queue(api, device);
-  choose_lanes(api, device, subgroup);
+  device.portability = has_extension(api, handle, kPortabilitySubset);
+  find_queue(api, device, allowed);
+  choose_lanes(api, device, subgroup, allowed);
   look_for_texel_buffers(api, device);
-  look_for_matrices(instance, device);
+  if (allowed.matrices) look_for_matrices(instance, device);
   return device;
 }
-
-}  // namespace
 
 std::vector<PhysicalDevice> physical_devices(const Instance& instance) {
   const InstanceTable& api = instance.api();

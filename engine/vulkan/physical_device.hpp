@@ -2,7 +2,9 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "flowdlo/devices.hpp"
@@ -29,7 +31,28 @@ struct PhysicalDevice {
   /// them (VK_KHR_pipeline_executable_properties, which the driver must have).
   bool keeps_statistics = false;
   std::string driver_uuid;  ///< 32 hexadecimal digits
+  bool portability = false;  ///< has VK_KHR_portability_subset, which must then be enabled
 };
+
+/// What may be made use of. Of a device that somebody else makes, what it was made with.
+struct Allowed {
+  bool size_control = true;  ///< of subgroups
+  bool full_subgroups = true;
+  bool matrices = true;
+  std::optional<std::uint32_t> queue_family{};  ///< none: one of ours
+};
+
+[[nodiscard]] PhysicalDevice describe(const Instance& instance, VkPhysicalDevice handle,
+                                      const Allowed& allowed = {});
+
+[[nodiscard]] std::vector<VkQueueFamilyProperties> queue_families(const InstanceTable& api,
+                                                                  VkPhysicalDevice device);
+
+[[nodiscard]] bool has_extension(const InstanceTable& api, VkPhysicalDevice device,
+                                 std::string_view name);
+
+/// VK_KHR_portability_subset by its name, which headers have for beta platforms alone.
+inline constexpr const char* kPortabilitySubset = "VK_KHR_portability_subset";
 
 /// In the loader's order.
 [[nodiscard]] std::vector<PhysicalDevice> physical_devices(const Instance& instance);

@@ -46,6 +46,8 @@ void open(const Instance& instance, const PhysicalDevice& physical) {
   info.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO;
   info.queueCreateInfoCount = 1;
   info.pQueueCreateInfos = &queue;
+  info.enabledExtensionCount = physical.portability ? 1 : 0;
+  info.ppEnabledExtensionNames = &kPortabilitySubset;
   VkDevice device = VK_NULL_HANDLE;
   const InstanceTable& api = instance.api();
   if (api.vkCreateDevice(physical.handle, &info, nullptr, &device) != VK_SUCCESS) return;

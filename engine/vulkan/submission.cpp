@@ -18,12 +18,14 @@ bool may_run_on(VkResult waited) { return waited != VK_SUCCESS && waited != VK_E
 
 }  // namespace
 
-Result<Submission> Submission::create(const Device& device) {
+Result<Submission> Submission::create(const Device& device, bool again) {
   const VolkDeviceTable& api = device.api();
   Submission submission;
+  const VkCommandPoolCreateFlags flags =
+      again ? VK_COMMAND_POOL_CREATE_RESET_COMMAND_BUFFER_BIT : 0;
   const VkCommandPoolCreateInfo pool_info{.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO,
                                           .pNext = nullptr,
-                                          .flags = 0,
+                                          .flags = flags,
                                           .queueFamilyIndex = device.facts().queue_family};
   auto pool = device.create(api.vkCreateCommandPool, api.vkDestroyCommandPool, pool_info,
                             VK_OBJECT_TYPE_COMMAND_POOL, "program");
@@ -51,26 +53,30 @@ Result<VkCommandBuffer> Submission::begin(const Device& device, std::string_view
                    fmt::format("vkAllocateCommandBuffers({})", name));
   if (!allocated) return allocated.error();
   device.name(VK_OBJECT_TYPE_COMMAND_BUFFER, commands, name);
+  const auto begun = begin_again(device, commands);
+  if (!begun) return begun.error();
+  return commands;
+}
+
+Result<void> Submission::begin_again(const Device& device, VkCommandBuffer commands) {
   const VkCommandBufferBeginInfo info{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO,
                                       .pNext = nullptr,
                                       .flags = 0,
                                       .pInheritanceInfo = nullptr};
-  const auto begun = device.check(device.api().vkBeginCommandBuffer(commands, &info),
-                                  fmt::format("vkBeginCommandBuffer({})", name));
-  if (!begun) return begun.error();
-  return commands;
+  return device.check(device.api().vkBeginCommandBuffer(commands, &info), "vkBeginCommandBuffer");
 }
 
 Result<void> Submission::end(const Device& device, VkCommandBuffer commands) {
   return device.check(device.api().vkEndCommandBuffer(commands), "vkEndCommandBuffer");
 }
 
-Result<void> Submission::run(Device& device, VkCommandBuffer commands, int timeout_ms) {
+Result<void> Submission::run(Device& device, VkCommandBuffer commands, int timeout_ms,
+                             const Meeting& meeting) {
   const VkFence fence = fence_.get();
   const auto reset =
       device.check(device.api().vkResetFences(device.handle(), 1, &fence), "vkResetFences");
   if (!reset) return reset.error();
-  const auto submitted = device.submit(commands, fence);
+  const auto submitted = device.submit(commands, fence, meeting);
   if (!submitted) return submitted.error();
   in_flight_ = true;
   const VkResult waited =

@@ -9,7 +9,8 @@ namespace flowdlo::vulkan {
 
 class Submission {
  public:
-  [[nodiscard]] static Result<Submission> create(const Device& device);
+  /// `again`: its command buffers may be begun again.
+  [[nodiscard]] static Result<Submission> create(const Device& device, bool again = false);
 
   Submission() = default;
 
@@ -17,9 +18,13 @@ class Submission {
   [[nodiscard]] Result<VkCommandBuffer> begin(const Device& device, std::string_view name);
   [[nodiscard]] static Result<void> end(const Device& device, VkCommandBuffer commands);
 
+  /// The same buffer from its beginning, once idle.
+  [[nodiscard]] static Result<void> begin_again(const Device& device, VkCommandBuffer commands);
+
   /// Submits and waits. Fails with kDeviceLost after timeout_ms, and then the commands may still
   /// be running: see idle.
-  [[nodiscard]] Result<void> run(Device& device, VkCommandBuffer commands, int timeout_ms);
+  [[nodiscard]] Result<void> run(Device& device, VkCommandBuffer commands, int timeout_ms,
+                                 const Meeting& meeting = {});
   /// Whether nothing runs any more, waiting at most wait_ms.
   [[nodiscard]] bool idle(const Device& device, int wait_ms);
 

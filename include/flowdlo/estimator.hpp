@@ -13,6 +13,9 @@
 
 namespace flowdlo {
 
+struct VulkanFrame;  // <flowdlo/vulkan.hpp>
+struct VulkanHost;
+
 /// Owns the device and the weights; create once, call per frame. One instance a thread: a call
 /// reuses its buffers. Calls on different instances may run at the same time. It belongs to the
 /// process that made it: in one that was forked from there it may be destroyed, and estimate()
@@ -23,6 +26,14 @@ class FLOWDLO_EXPORT Estimator {
   /// Config::device "auto" never for a device's sake. The only call that reads files or compiles,
   /// but for what "auto" does beside the frames after it lost a device.
   [[nodiscard]] static Result<Estimator> create(const Config& config);
+
+  /// On a Vulkan device that the caller made and keeps, and that outlives the estimator: see
+  /// VulkanHost. Fails as well with kNoDevice, naming everything that the device lacks. Of
+  /// Config::device, "auto": the device is taken once its self-test passes, else this fails with
+  /// kNoDevice; where it is lost later, the CPU takes its place for good. "vulkan": it is taken
+  /// untested, and its loss is kDeviceLost. Anything else is kBadInput. Config::probe and
+  /// Config::validation have no effect.
+  [[nodiscard]] static Result<Estimator> create(const Config& config, const VulkanHost& host);
 
   /// Fails with kBadInput, kNoEvidence, kNoPath, kDeviceLost or kOutOfMemory; never throws. A
   /// rejected prediction is not a failure: the estimate is then the prior, with Source::kPrior.
@@ -35,6 +46,17 @@ class FLOWDLO_EXPORT Estimator {
   /// of `hints`. Without any hint the same bits as estimate(frame).
   [[nodiscard]] Result<Estimate> estimate(const Frame& frame, const Hints& hints);
   [[nodiscard]] Result<Estimate> estimate(const Frame& frame, const Hints& hints, Tensors& tensors);
+
+  /// The frame in buffers of the host's device, as views into this estimator's memory that are good
+  /// until the next fetch() or the estimator's end: for every estimate below and above. Waits for
+  /// what the frame waits for, at most Config::device_timeout_ms; what takes longer is kDeviceLost.
+  /// Fails as well with kBadInput, naming every fault of `frame`, also where the estimator was made
+  /// without a host's device; and with kOutOfMemory.
+  [[nodiscard]] Result<Frame> fetch(const VulkanFrame& frame);
+
+  /// estimate() of fetch(): the same bits as of the same frame in the caller's memory. What fetch()
+  /// takes is in none of the timings.
+  [[nodiscard]] Result<Estimate> estimate(const VulkanFrame& frame);
 
   /// Each rope of the frame on its own: Config::ropes of them, or one for each label that
   /// Frame::instances has on the mask. Takes as long as estimate() for each; Config::budget_ms is
@@ -63,6 +85,8 @@ class FLOWDLO_EXPORT Estimator {
   struct FLOWDLO_HIDDEN LetGo {
     void operator()(Impl* impl) const noexcept;
   };
+  [[nodiscard]] FLOWDLO_HIDDEN static Result<Estimator> make(const Config& config,
+                                                             const VulkanHost* host);
   FLOWDLO_HIDDEN explicit Estimator(std::unique_ptr<Impl> impl);
   FLOWDLO_HIDDEN Result<Estimate> run(const Frame& frame, const Hints& hints, Tensors* tensors);
   [[nodiscard]] FLOWDLO_HIDDEN Result<void> usable() const;

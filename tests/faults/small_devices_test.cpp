@@ -125,6 +125,25 @@ TEST_F(SmallDevices, AreTakenByAutoOnceTheirSelfTestPasses) {
   EXPECT_TRUE(made->estimate(wave_.frame()));
 }
 
+/// As MoltenVK's: the loader hides such a driver, and the device must be made with its extension.
+TEST_F(SmallDevices, WithASubsetOfVulkanAreAskedForAndOpened) {
+  const test::Drivers portable(FLOWDLO_RELAY_PORTABILITY);
+  relay()->limit({.portability = true});
+  const DeviceSurvey survey = survey_devices(/*self_test=*/true, /*probe=*/false);
+  ASSERT_EQ(survey.vulkan.size(), 1U) << survey.advice;
+  EXPECT_TRUE(survey.vulkan[0].self_test_passed) << survey.vulkan[0].self_test;
+  const auto device =
+      vulkan::open_device({.wanted = "vulkan", .validation = true, .probing = {.on = false}});
+  ASSERT_TRUE(device) << device.error().message;
+  const auto expected = vulkan::testing::run_on_cpu(vulkan::testing::record_every_op);
+  const auto got = vulkan::testing::run_on(*device, vulkan::testing::record_every_op);
+  ASSERT_EQ(got.size(), expected.size());
+  for (std::size_t i = 0; i < got.size(); ++i) {
+    vulkan::testing::expect_near(expected[i], got[i], 1e-4F);
+  }
+  EXPECT_THAT(vulkan::validation_messages(**device), IsEmpty());
+}
+
 /// What cannot be run here is at least chosen: lanes of devices that let us choose, or do not.
 TEST_F(SmallDevices, GetTheirLanes) {
   relay()->pose_as_gpu(true);

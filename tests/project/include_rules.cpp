@@ -47,6 +47,10 @@ std::string complaint(const Rooms& rooms, const std::string& file, const Include
   if (include.angled && is_vulkan_header(include.target) && from->first != "vulkan") {
     return file + ": includes <" + include.target + ">; Vulkan headers only in engine/vulkan";
   }
+  if (include.target == "flowdlo/vulkan.hpp" && from->first != "vulkan") {
+    return file + ": includes \"" + include.target +
+           "\", which sees Vulkan; only engine/vulkan may";
+  }
   if (include.target.starts_with("../") && !include.target.starts_with("../../shaders/")) {
     return file + ": includes \"" + include.target + "\"; write it from engine/";
   }

@@ -62,6 +62,13 @@ TEST(IncludeRules, VulkanHeadersBelongToTheVulkanRoom) {
               HasSubstr("Vulkan"));
 }
 
+TEST(IncludeRules, ThePublicHeaderThatSeesVulkanBelongsToItsRoomToo) {
+  EXPECT_EQ(complaint(kThreeRooms, "vulkan/device.cpp", {"flowdlo/vulkan.hpp"}), "");
+  EXPECT_THAT(complaint(kThreeRooms, "flow/sampler.cpp", {"flowdlo/vulkan.hpp"}),
+              HasSubstr("only engine/vulkan"));
+  EXPECT_EQ(complaint(kThreeRooms, "flow/sampler.cpp", {"flowdlo/frame.hpp"}), "");
+}
+
 TEST(IncludeRules, OnlyTheShadersHeadersMayBeReachedByDots) {
   EXPECT_EQ(complaint(kThreeRooms, "ops/program.hpp", {"../../shaders/frame_params.h"}), "");
   EXPECT_THAT(complaint(kThreeRooms, "ops/program.hpp", {"../flow/sampler.hpp"}),

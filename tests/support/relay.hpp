@@ -20,6 +20,7 @@ struct RelayLimits {
   std::uint32_t texels = 0;           ///< of a texel buffer
   std::uint32_t storage_buffers = 0;  ///< of a stage
   std::uint32_t api_version = 0;
+  bool portability = false;       ///< has VK_KHR_portability_subset, and insists on it
   std::uint32_t least_lanes = 0;  ///< of a subgroup, where its size may be chosen
   std::uint32_t most_lanes = 0;
 };

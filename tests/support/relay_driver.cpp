@@ -7,6 +7,7 @@
 #include <cstring>
 #include <mutex>
 #include <string_view>
+#include <vector>
 
 #include "support/relay.hpp"
 #include "vulkan/vulkan_api.hpp"
@@ -232,6 +233,50 @@ VKAPI_ATTR void VKAPI_CALL format_properties(VkPhysicalDevice device, VkFormat f
       ~static_cast<VkFormatFeatureFlags>(VK_FORMAT_FEATURE_UNIFORM_TEXEL_BUFFER_BIT);
 }
 
+using Extensions =
+    Relayed<k_vkEnumerateDeviceExtensionProperties, PFN_vkEnumerateDeviceExtensionProperties>;
+using CreateDevice = Relayed<k_vkCreateDevice, PFN_vkCreateDevice>;
+
+constexpr const char* kPortabilitySubset = "VK_KHR_portability_subset";
+
+VKAPI_ATTR VkResult VKAPI_CALL extensions(VkPhysicalDevice device, const char* layer,
+                                          std::uint32_t* count, VkExtensionProperties* out) {
+  if (!state().limits.portability) return Extensions::call(device, layer, count, out);
+  const std::uint32_t room = *count;
+  if (out != nullptr) {
+    if (room == 0) return VK_INCOMPLETE;
+    --*count;
+  }
+  const VkResult result = Extensions::call(device, layer, count, out);
+  if (result < VK_SUCCESS) return result;
+  if (out != nullptr) {
+    VkExtensionProperties own{};
+    std::strncpy(own.extensionName, kPortabilitySubset, sizeof(own.extensionName) - 1);
+    own.specVersion = 1;
+    out[*count] = own;
+  }
+  ++*count;
+  return result;
+}
+
+/// The other driver knows nothing of a subset of Vulkan. One that has it must be asked for it.
+VKAPI_ATTR VkResult VKAPI_CALL create_device(VkPhysicalDevice physical,
+                                             const VkDeviceCreateInfo* info,
+                                             const VkAllocationCallbacks* allocation,
+                                             VkDevice* device) {
+  if (!state().limits.portability) return CreateDevice::call(physical, info, allocation, device);
+  std::vector<const char*> others;
+  for (std::uint32_t i = 0; i < info->enabledExtensionCount; ++i) {
+    const char* const name = info->ppEnabledExtensionNames[i];
+    if (std::strcmp(name, kPortabilitySubset) != 0) others.push_back(name);
+  }
+  if (others.size() == info->enabledExtensionCount) return VK_ERROR_INITIALIZATION_FAILED;
+  VkDeviceCreateInfo rest = *info;
+  rest.enabledExtensionCount = static_cast<std::uint32_t>(others.size());
+  rest.ppEnabledExtensionNames = others.data();
+  return CreateDevice::call(physical, &rest, allocation, device);
+}
+
 /// Ours in the place of `theirs`, where this relay minds the function.
 PFN_vkVoidFunction relayed(std::string_view name, PFN_vkVoidFunction theirs);
 
@@ -264,6 +309,10 @@ PFN_vkVoidFunction relayed(std::string_view name, PFN_vkVoidFunction theirs) {
   if (name == "vkGetPhysicalDeviceFormatProperties") {
     return put_between<FormatProperties>(theirs, &format_properties);
   }
+  if (name == "vkEnumerateDeviceExtensionProperties") {
+    return put_between<Extensions>(theirs, &extensions);
+  }
+  if (name == "vkCreateDevice") return put_between<CreateDevice>(theirs, &create_device);
   if (name == "vkCreateInstance") return put_between<CreateInstance>(theirs);
 #define RELAY_PUT(function) \
   if (name == #function) return put_between<Relayed<k_##function, PFN_##function>>(theirs);
