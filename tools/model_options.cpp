@@ -27,10 +27,9 @@ void add_prior_options(CLI::App& command, Config& config) {
                                       {"calibrated", GateChoice::kCalibrated}}))
       ->type_name("RULE");
   command
-      .add_option(
-          "--field", config.field,
-          "The strand field, which sees strands where the mask leaves doubt: auto (where its "
-          "weights lie beside the model's) or off")
+      .add_option("--field", config.field,
+                  "The strand field, which sees strands that the mask merges: auto (where its "
+                  "weights lie beside the model's) or off")
       ->transform(choice<FieldChoice>({{"auto", FieldChoice::kBeside}, {"off", FieldChoice::kOff}}))
       ->type_name("CHOICE");
   command

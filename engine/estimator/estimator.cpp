@@ -217,7 +217,8 @@ Result<Estimate> Estimator::Impl::estimate(const Frame& frame, const Hints& hint
   estimator::Stopwatch stage;
   if (!conditions) return conditions.error();
   // The thesis' gate knows no doubt.
-  const bool reread = calibrated() && estimator::worth_rereading(*conditions, frame);
+  const bool reread =
+      calibrated() && estimator::worth_rereading(*conditions, frame, traced != nullptr);
   estimator::Rereading rereading(pool, reread, field ? &*field : nullptr, *conditions, frame,
                                  rope_length_m, prior_kind(), ends, limits(budget, timings));
 

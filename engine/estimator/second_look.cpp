@@ -133,10 +133,10 @@ bool shaped_like_a_rope(const Hypothesis& hypothesis, const Frame& frame, float 
 
 }  // namespace
 
-bool worth_rereading(const Conditions& conditions, const Frame& frame) {
+bool worth_rereading(const Conditions& conditions, const Frame& frame, bool seen) {
   const auto& first = conditions.hypotheses;
   const path::Traversals& paths = conditions.paths;
-  if (confidence(first.front().evidence, lead(first)) >= kClear) return false;
+  if (seen && confidence(first.front().evidence, lead(first)) >= kClear) return false;
   if (paths.filtered || paths.strands > path::kMostRereadStrands) return false;
   const auto sides = static_cast<std::size_t>(frame.width + frame.height);
   if (paths.ranked.front().points_px.size() > path::kMostRereadSides * sides) return false;

@@ -1,5 +1,4 @@
-// SecondLook: where the first reading of a mask leaves doubt, what further readings make of it, and
-// how many of them agree.
+// SecondLook: what further readings make of a frame, and how many of them agree.
 #pragma once
 
 #include <chrono>
@@ -17,13 +16,17 @@
 
 namespace flowdlo::estimator {
 
-/// How sure the first reading has to be of its best hypothesis to be left alone, `confidence`.
+/// How sure a reading along a strand field's axes has to be of its best hypothesis to be left
+/// alone, `confidence`.
 inline constexpr float kClear = 0.7F;
 
-/// Whether further readings of the frame that `conditions` are of may be surer than the first one:
-/// not where that one is clear, and not where another would be no better: of noise, of what has no
-/// rope's shape, of a tangle beyond path::kMostRereadStrands or path::kMostRereadSides.
-[[nodiscard]] bool worth_rereading(const Conditions& conditions, const Frame& frame);
+/// Whether further readings of the frame that `conditions` are of may be surer than the first one.
+/// That of a mask has no doubt where strands are merged, so that it is never left alone; one that
+/// has `seen` a strand field is, where it is clear. Not where another would be no better: of noise,
+/// of what has no rope's shape, of a tangle beyond path::kMostRereadStrands or
+/// path::kMostRereadSides.
+[[nodiscard]] bool worth_rereading(const Conditions& conditions, const Frame& frame,
+                                   bool seen = false);
 
 /// Pixels of the mask, magnified as the network of a strand field sees a rope of that width.
 [[nodiscard]] double magnified_px(const Frame& frame, float rope_width_px);

@@ -22,7 +22,8 @@ enum class GateChoice {
   kCalibrated,  ///< a score fitted on synthetic scenes, over draws, prior and alternatives
 };
 
-/// Whether a small network sees the strands where a mask leaves doubt.
+/// Whether a small network sees the strands beside the reading of the mask, which cannot tell those
+/// that it merges.
 enum class FieldChoice {
   kBeside,  ///< where its weights are: Config::field_weights, or the `field.safetensors` that
             ///< belongs to Config::weights: in its folder, or within the library; not with the

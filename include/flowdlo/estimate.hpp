@@ -67,8 +67,8 @@ struct OneRope {
 /// What Config::budget_ms left no time for.
 enum class LeftOut {
   kModel,     ///< its draws: the estimate is a prior
-  kField,     ///< the strand field, though there was doubt
-  kReadings,  ///< the eroded mask, though there was doubt
+  kField,     ///< the strand field
+  kReadings,  ///< the eroded mask
 };
 
 /// Milliseconds of each stage of one call. The stages sum to total_ms; beside_ms is in no sum.
@@ -97,7 +97,7 @@ struct Estimate {
   /// [64] metres. Calibrated gate: 68 % of nodes are nearer to the truth than this and 95 % nearer
   /// than twice this, doubt about the traversal included. Thesis gate: not calibrated.
   std::array<float, kNodes> sigma_m{};
-  int readings = 1;                ///< of the mask; more than one where the first leaves doubt
+  int readings = 1;  ///< of the frame: mask, strand field, eroded mask; 1: another was not worth it
   Source source = Source::kPrior;  ///< which branch of Eq. (3.33)
   Origin origin = Origin::kFirstPrior;
   int draw = -1;            ///< index of the returned draw; -1: the prior

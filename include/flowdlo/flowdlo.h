@@ -260,7 +260,7 @@ typedef struct flowdlo_estimate {
   int32_t source;                 /* FLOWDLO_SOURCE_: where the nodes come from */
   int32_t draw;                   /* index of the returned draw; -1: the prior */
   int32_t calibrated;             /* 1: the calibrated gate decided, 0: that of the thesis */
-  int32_t readings;               /* of the mask; more than one where the first leaves doubt */
+  int32_t readings;               /* of the frame: mask, strand field, eroded mask */
   uint32_t doubts;                /* FLOWDLO_DOUBT_ bits; 0: none */
   int32_t alternatives;           /* how many flowdlo_estimator_alternative has */
   int32_t accepted_draws;         /* draws that the gate found plausible */

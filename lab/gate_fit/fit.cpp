@@ -123,6 +123,11 @@ struct Fitting {
 
   void choose_draws();
   void choose_hypotheses();
+  void choose_by(const gate::GateWeights& fitted);
+
+ private:
+  /// What the weights' scores choose of a sample.
+  void conclude(std::size_t sample, const std::vector<double>& scores);
 };
 
 void Fitting::choose_draws() {
@@ -165,13 +170,28 @@ void Fitting::choose_hypotheses() {
     }
   });
   weights.hypothesis_margin = fit_margin(std::move(changes), kHypothesisErrors);
-  for (std::size_t s = 0; s < samples.size(); ++s) {
-    const std::size_t hypothesis = gate::preferred(scores[s], weights.hypothesis_margin);
-    const double lead =
-        gate::lead_elsewhere(samples[s].candidates, returned[s], scores[s], hypothesis);
-    outcomes[s] = {returned[s], scores[s], hypothesis, lead};
-  }
+  for (std::size_t s = 0; s < samples.size(); ++s) conclude(s, scores[s]);
   weights.hypothesis = fit_hypothesis(samples, costs, returned, all_but(kFolds, samples.size()));
+}
+
+void Fitting::choose_by(const gate::GateWeights& fitted) {
+  weights = fitted;
+  for (std::size_t s = 0; s < samples.size(); ++s) {
+    const auto& candidates = samples[s].candidates;
+    returned[s] = gate::returned_by(candidates, weights);
+    std::vector<double> scores;
+    for (const std::size_t i : returned[s]) {
+      scores.push_back(gate::hypothesis_score(candidates, i, weights));
+    }
+    conclude(s, scores);
+  }
+}
+
+void Fitting::conclude(std::size_t sample, const std::vector<double>& scores) {
+  const std::size_t hypothesis = gate::preferred(scores, weights.hypothesis_margin);
+  const double lead =
+      gate::lead_elsewhere(samples[sample].candidates, returned[sample], scores, hypothesis);
+  outcomes[sample] = {returned[sample], scores, hypothesis, lead};
 }
 
 }  // namespace
@@ -195,12 +215,16 @@ std::vector<double> errors_m(const GateSample& sample) {
 }
 
 gate::GateWeights fit_gate(const std::vector<GateSample>& samples,
-                           const std::vector<GateSample>& also) {
+                           const std::vector<GateSample>& also, const gate::GateWeights* choice) {
   std::vector<GateSample> all = samples;
   all.insert(all.end(), also.begin(), also.end());
   Fitting fitting(all);
-  fitting.choose_draws();
-  fitting.choose_hypotheses();
+  if (choice != nullptr) {
+    fitting.choose_by(*choice);
+  } else {
+    fitting.choose_draws();
+    fitting.choose_hypotheses();
+  }
   calibrate(all, fitting.outcomes, samples.size(), fitting.weights);
   return fitting.weights;
 }

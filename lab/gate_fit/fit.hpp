@@ -17,8 +17,10 @@ namespace flowdlo::lab {
 
 /// `samples` hold at least five. What one stage learns from another's answers, it learns from
 /// answers to scenes which that stage was not fitted on. All learn from `also` as well, but the
-/// coverage of sigma_m is that of `samples`.
+/// coverage of sigma_m is that of `samples`. With `choice` what those weights choose is kept, which
+/// were fitted to other scenes, and confidence and sigma_m alone are fitted to it.
 [[nodiscard]] gate::GateWeights fit_gate(const std::vector<GateSample>& samples,
-                                         const std::vector<GateSample>& also = {});
+                                         const std::vector<GateSample>& also = {},
+                                         const gate::GateWeights* choice = nullptr);
 
 }  // namespace flowdlo::lab

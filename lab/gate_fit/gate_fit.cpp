@@ -56,6 +56,7 @@ struct Options {
   int draws = 4;
   int steps = 10;
   bool quiet = false;
+  bool keep_choice = false;
 };
 
 /// Scenes of one split and part, with or without the model.
@@ -128,8 +129,8 @@ Measured measured_one(const Options& options, const Batch& batch, Model& model,
   if (!scene) return scene.error();
   const auto kind = model.weights->metadata.variant.prior_kind;
   const double length_m = known_length_m(batch.origin, index, scene->meta.length_m);
-  // Colours take longest, and nothing but the strand field of a doubtful frame asks for them.
-  if (field != nullptr && lab::doubtful(*scene, kind, length_m)) {
+  // Colours take longest, and nothing but the strand field asks for them.
+  if (field != nullptr && lab::is_reread(*scene, kind, length_m)) {
     scene = scene_of(batch.origin, index, true);
     if (!scene) return scene.error();
   }
@@ -259,13 +260,15 @@ int fit(const Options& options) {
   }
   Samples all = *samples;
   all.insert(all.end(), more->begin(), more->end());
-  const auto weights = lab::fit_gate(all, *clean);
+  const auto& compiled = seen ? flowdlo::gate::fitted_to_field() : flowdlo::gate::fitted_to_mask();
+  const auto weights = lab::fit_gate(all, *clean, options.keep_choice ? &compiled : nullptr);
   const auto info = flowdlo::inspect_weights(options.weights);
   const std::string origin = fmt::format(
-      "Fitted on {} {}scenes of {} {} from {},\n"
+      "{} on {} scenes of {} {} from {},\n"
       "// and {} and {} of thesis without a model; weights {}...",
-      samples->size(), seen ? "doubtful " : "", options.split, options.part, options.first,
-      more->size(), clean->size(), info ? info->sha256.substr(0, 16) : "unknown");
+      options.keep_choice ? "What is chosen is kept; confidence and sigma_m are fitted" : "Fitted",
+      samples->size(), options.split, options.part, options.first, more->size(), clean->size(),
+      info ? info->sha256.substr(0, 16) : "unknown");
   const std::string text =
       lab::constants_text(weights, seen ? "fitted_to_field" : "fitted_to_mask", origin);
   if (options.constants.empty()) {
@@ -335,6 +338,8 @@ int main(int count, char** values) {
       ->capture_default_str();
   fit_command->add_option("--constants", fitting.constants, "Write them to FILE, not to stdout")
       ->type_name("FILE");
+  fit_command->add_flag("--keep-choice", fitting.keep_choice,
+                        "Fit confidence and sigma_m alone, to what the compiled constants choose");
   auto* report_command = app.add_subcommand("report", "What the compiled constants are worth");
   add_options(*report_command, reporting);
   report_command->add_option("--part", reporting.part, "training or validation")

@@ -43,7 +43,7 @@ std::optional<Drawn> draw(const Frame& frame, const estimator::Conditions& condi
 
 }  // namespace
 
-bool doubtful(const synth::SyntheticFrame& scene, weights::PriorKind kind, double rope_length_m) {
+bool is_reread(const synth::SyntheticFrame& scene, weights::PriorKind kind, double rope_length_m) {
   const Frame frame = scene.frame();
   Timings timings;
   const auto conditions = estimator::gather(frame, rope_length_m, kind, timings);

@@ -24,9 +24,9 @@ struct GateSample {
   std::vector<std::uint8_t> doubted;  ///< [candidates] 1: gate::one_rope doubts it; empty: unknown
 };
 
-/// Whether the mask leaves doubt, so that it is read again.
-[[nodiscard]] bool doubtful(const synth::SyntheticFrame& scene, weights::PriorKind kind,
-                            double rope_length_m);
+/// Whether the frame is read again, through the strand field too.
+[[nodiscard]] bool is_reread(const synth::SyntheticFrame& scene, weights::PriorKind kind,
+                             double rope_length_m);
 
 /// Nothing where the engine finds no path or the device fails. Priors alone where `sampler` is
 /// null, without a strand field where `field` is. `rope_length_m` 0: unknown.

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "estimator/conditions.hpp"
+#include "estimator/confidence.hpp"
 #include "estimator/second_look.hpp"
 #include "eval/metrics.hpp"
 #include "field/axes.hpp"
@@ -128,7 +129,8 @@ flowdlo::Result<Outcome> measure(const Options& options, std::uint64_t index,
   if (!conditions) return conditions.error();
   outcome.mask_ms = ms_since(begin);
   const auto& of_mask = conditions->hypotheses;
-  outcome.clear = !estimator::worth_rereading(*conditions, frame);
+  outcome.clear = estimator::confidence(of_mask.front().evidence, estimator::lead(of_mask)) >=
+                  estimator::kClear;
   begin = std::chrono::steady_clock::now();
   const auto seen = field::see(frame, conditions->paths.rope_width_px, network);
   if (!seen) return seen.error();

@@ -48,7 +48,7 @@ TEST(FieldChoice, WeightsThatAreNoneAreRefusedUnlessTheFieldIsOff) {
   EXPECT_TRUE(Estimator::create(config));
 }
 
-TEST(FieldChoice, AClearFrameIsTheSameToTheLastBitWithoutIt) {
+TEST(FieldChoice, AClearFrameHasTheSameNodesToTheLastBitWithoutIt) {
   const testing::WaveFrame wave;
   Config config = small(FLOWDLO_DEFAULT_WEIGHTS);
   auto with = Estimator::create(config);
@@ -58,12 +58,12 @@ TEST(FieldChoice, AClearFrameIsTheSameToTheLastBitWithoutIt) {
   const auto a = with->estimate(wave.frame());
   const auto b = without->estimate(wave.frame());
   ASSERT_TRUE(a && b);
-  ASSERT_EQ(a->readings, 1);
-  EXPECT_EQ(a->confidence, b->confidence);
+  EXPECT_EQ(a->readings, b->readings + 1);
+  EXPECT_GT(a->confidence, 0.9F);
+  EXPECT_GT(b->confidence, 0.9F);
   for (std::size_t i = 0; i < kNodes; ++i) {
     EXPECT_EQ(a->nodes[i].x, b->nodes[i].x);
     EXPECT_EQ(a->nodes[i].z, b->nodes[i].z);
-    EXPECT_EQ(a->sigma_m[i], b->sigma_m[i]);
   }
 }
 
