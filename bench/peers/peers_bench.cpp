@@ -11,24 +11,21 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <chrono>
 #include <cmath>
-#include <ctime>
+#include <functional>
 #include <memory>
-#include <thread>
 #include <vector>
 
 #include "peers/flowdlo_peer.hpp"
 #include "peers/onnx_peer.hpp"
 #include "peers/problem.hpp"
 #include "peers/torch_peer.hpp"
+#include "peers/turns.hpp"
 
 namespace flowdlo::peers {
 namespace {
 
 constexpr float kLargest = 1e-3F;  // difference to FlowDLO, of what the network adds to the nodes
-// Between turns: idle threads of a BLAS or of ONNX Runtime spin before they sleep.
-constexpr std::chrono::milliseconds kPause{150};
 
 struct Options {
   std::filesystem::path weights;
@@ -39,21 +36,6 @@ struct Options {
   int steps = 10;
   int rounds = 21;
 };
-
-struct Turn {
-  double wall_ms = 0;
-  double cpu_ms = 0;  // of all threads together
-};
-
-double percentile(const std::vector<Turn>& turns, double Turn::*field, double share) {
-  std::vector<double> values;
-  for (const Turn& turn : turns) values.push_back(turn.*field);
-  std::sort(values.begin(), values.end());
-  const double rank = share * static_cast<double>(values.size() - 1);
-  const auto below = static_cast<std::size_t>(rank);
-  const auto above = std::min(below + 1, values.size() - 1);
-  return values[below] + (rank - static_cast<double>(below)) * (values[above] - values[below]);
-}
 
 /// Largest difference of the nodes' coordinates.
 float difference(const std::vector<float>& a, const std::vector<float>& b) {
@@ -96,31 +78,6 @@ bool agree(const std::vector<std::unique_ptr<Peer>>& peers, const Problem& probl
   return fine;
 }
 
-double cpu_ms() {
-  timespec time{};
-  ::clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
-  return 1e3 * static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_nsec);
-}
-
-std::vector<std::vector<Turn>> time_in_turns(const std::vector<std::unique_ptr<Peer>>& peers,
-                                             const Problem& problem, int rounds) {
-  std::vector<std::vector<Turn>> turns(peers.size());
-  std::vector<float> state(problem.source.size());
-  for (int round = 0; round <= rounds; ++round) {
-    for (std::size_t i = 0; i < peers.size(); ++i) {
-      std::this_thread::sleep_for(kPause);
-      const double cpu_start = cpu_ms();
-      const auto start = std::chrono::steady_clock::now();
-      peers[i]->sample(state);
-      const std::chrono::duration<double, std::milli> took =
-          std::chrono::steady_clock::now() - start;
-      if (round == 0) continue;  // to warm up
-      turns[i].push_back({took.count(), cpu_ms() - cpu_start});
-    }
-  }
-  return turns;
-}
-
 int run(const Options& options) {
   const auto problem =
       make_problem(options.weights, options.frame, options.draws, options.steps, options.threads);
@@ -133,7 +90,10 @@ int run(const Options& options) {
     fmt::print(stderr, "peers: results differ; nothing was timed\n");
     return 1;
   }
-  const auto turns = time_in_turns(peers, *problem, options.rounds);
+  std::vector<float> state(problem->source.size());
+  std::vector<std::function<void()>> ways;
+  for (const auto& peer : peers) ways.emplace_back([&] { peer->sample(state); });
+  const auto turns = time_in_turns(ways, options.rounds);
   const double ours = percentile(turns.front(), &Turn::wall_ms, 0.5);
   fmt::print("\n{} draws, {} steps, {} threads, {} rounds in turns\n\n", options.draws,
              options.steps, options.threads, options.rounds);

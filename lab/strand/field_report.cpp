@@ -20,6 +20,7 @@
 #include "path/path.hpp"
 #include "strand/measure.hpp"
 #include "strand/scene_range.hpp"
+#include "strand/targets.hpp"
 
 namespace {
 
@@ -36,6 +37,7 @@ struct Options {
   bool width_of_mask = false;
   std::filesystem::path pictures;
   std::size_t worst = 12;
+  std::string worst_by = "places";
 };
 
 /// What one scene gave.
@@ -45,6 +47,7 @@ struct Outcome {
   double width_px = 0;
   Counts field;
   Counts thinning;
+  strand::TipLevels tips;
   double ms = 0;
   std::size_t blocks = 0;
 };
@@ -63,24 +66,29 @@ std::string row(const std::string& name, std::size_t scenes, const Counts& c) {
 }
 
 constexpr double kDark = 0.06;      // of the light; 8 bits keep a few levels of it
-constexpr double kDarkNoise = 1.5;  // levels
+constexpr double kNoise = 1.5;      // levels
 constexpr int kBlur_px = 11;        // that everything moved by while the shutter was open
 constexpr std::uint64_t kNoiseSeed = 5;
+constexpr float kLeastTip = 0.3F;  // in the table of other thresholds
 
 /// What a camera would have given of a picture.
 cv::Mat as_seen(const cv::Mat& bgr, const std::string& colors) {
   cv::Mat seen = bgr.clone();
-  if (colors == "flat") seen.setTo(cv::mean(bgr));
+  const auto add_noise = [](double light, const cv::Mat& from, cv::Mat& to) {
+    cv::Mat noise(from.size(), CV_16SC3);
+    cv::RNG random(kNoiseSeed);
+    random.fill(noise, cv::RNG::NORMAL, 0, kNoise);
+    cv::addWeighted(from, light, noise, 1, 0, to, CV_8U);
+  };
+  if (colors == "flat") {  // without noise it would be taken for none
+    const cv::Mat one(bgr.size(), bgr.type(), cv::mean(bgr));
+    add_noise(1, one, seen);
+  }
   if (colors == "grey") {
     cv::cvtColor(bgr, seen, cv::COLOR_BGR2GRAY);
     cv::cvtColor(seen, seen, cv::COLOR_GRAY2BGR);
   }
-  if (colors == "dark") {
-    cv::Mat noise(bgr.size(), CV_16SC3);
-    cv::RNG random(kNoiseSeed);
-    random.fill(noise, cv::RNG::NORMAL, 0, kDarkNoise);
-    cv::addWeighted(bgr, kDark, noise, 1, 0, seen, CV_8U);
-  }
+  if (colors == "dark") add_noise(kDark, bgr, seen);
   if (colors == "blurred") cv::blur(bgr, seen, {kBlur_px, 1});
   return seen;
 }
@@ -121,9 +129,11 @@ double true_width_px(const synth::SyntheticFrame& scene) {
   return 2 * scene.ropes.front().radius_m * static_cast<double>(scene.folder.intrinsics.fx) / depth;
 }
 
-/// The region in colour, the mask, and the field's centre and direction, tips and edges, side by
-/// side; where places were missed they are marked.
-cv::Mat picture(const flowdlo::Frame& frame, const field::StrandField& seen) {
+/// The region in colour, the mask, the field's centre and direction, and tips and edges, side by
+/// side. In colour and beside the mask: ends that show in green rings, tips in yellow ones where
+/// they are right and in red ones where they are not.
+cv::Mat picture(const flowdlo::Frame& frame, const field::StrandField& seen,
+                const std::vector<strand::Strand>& strands, const strand::TipLevels& levels) {
   const field::Sight sight = field::look(frame, seen.region);
   const cv::Size size = flowdlo::mat::size_of(seen.channels.size());
   cv::Mat result(size.height, 4 * size.width, CV_8UC3, cv::Scalar::all(0));
@@ -144,6 +154,19 @@ cv::Mat picture(const flowdlo::Frame& frame, const field::StrandField& seen) {
       to[3 * size.width] = {byte(std::max(at[field::kUnder], at[field::kEdge])),
                             byte(0.5F * at[field::kRope]), byte(at[field::kTip])};
     }
+  }
+  const auto ring = [&](float u, float v, int radius, const cv::Scalar& color) {
+    for (const int panel : {0, 1, 3}) {
+      cv::circle(
+          result,
+          {panel * size.width + static_cast<int>(std::lround(u)), static_cast<int>(std::lround(v))},
+          radius, color);
+    }
+  };
+  for (const auto& end : strand::visible_tips(strands)) ring(end.x, end.y, 9, {0, 255, 0});
+  for (const auto& tip : levels.tips) {
+    if (tip.level < field::kTipPeak) continue;
+    ring(tip.px.x(), tip.px.y(), 6, tip.right ? cv::Scalar(0, 255, 255) : cv::Scalar(0, 0, 255));
   }
   return result;
 }
@@ -177,8 +200,27 @@ flowdlo::Result<Outcome> measure(const Options& options, std::uint64_t index,
       strand::measure(strands, mask, field::ridges(seen->channels), field::tips(seen->channels));
   strand::measure_crossings(strands, flowdlo::mat::mat_over(seen->channels), outcome.field);
   outcome.thinning = strand::measure(strands, mask, strand::thinned(mask), {});
-  if (drawn != nullptr) *drawn = picture(dropped.frame, *seen);
+  outcome.tips = strand::tip_levels(strands, seen->channels, kLeastTip);
+  if (drawn != nullptr) *drawn = picture(dropped.frame, *seen, strands, outcome.tips);
   return outcome;
+}
+
+/// What other values of field::kTipPeak would find.
+void report_tips(const strand::TipLevels& levels) {
+  fmt::print("\n| least tip | ends: recall / precision, % |\n|---|---|\n");
+  for (float least = kLeastTip; least < 0.96F; least += 0.05F) {
+    const auto ends = std::count_if(levels.ends.begin(), levels.ends.end(),
+                                    [&](float level) { return level >= least; });
+    long shown = 0;
+    long right = 0;
+    for (const auto& tip : levels.tips) {
+      if (tip.level < least) continue;
+      ++shown;
+      right += tip.right;
+    }
+    fmt::print("| {:.2f} | {:.1f} / {:.1f} |\n", least,
+               percent(ends, static_cast<long>(levels.ends.size())), percent(right, shown));
+  }
 }
 
 std::string width_group(double width_px) {
@@ -195,11 +237,13 @@ void report(const std::vector<Outcome>& outcomes) {
   Counts thinning;
   std::map<std::string, std::pair<std::size_t, Counts>> groups;
   std::map<std::string, std::pair<std::size_t, Counts>> widths;
+  strand::TipLevels tips;
   std::vector<double> times;
   std::vector<double> blocks;
   for (const Outcome& outcome : outcomes) {
     all += outcome.field;
     thinning += outcome.thinning;
+    tips += outcome.tips;
     auto& group = groups[outcome.scenario];
     ++group.first;
     group.second += outcome.field;
@@ -216,6 +260,7 @@ void report(const std::vector<Outcome>& outcomes) {
   fmt::print("{}", row("**field**", outcomes.size(), all));
   for (const auto& [name, group] : groups) fmt::print("{}", row(name, group.first, group.second));
   for (const auto& [name, group] : widths) fmt::print("{}", row(name, group.first, group.second));
+  report_tips(tips);
   std::sort(times.begin(), times.end());
   std::sort(blocks.begin(), blocks.end());
   const auto at = [](const std::vector<double>& sorted, double share) {
@@ -237,9 +282,14 @@ int run(const Options& options) {
   if (outcomes.empty()) return 1;
   report(outcomes);
   if (options.pictures.empty()) return 0;
-  std::stable_sort(outcomes.begin(), outcomes.end(), [](const Outcome& a, const Outcome& b) {
-    return a.field.places - a.field.found > b.field.places - b.field.found;
-  });
+  const auto wrong = [&](const Outcome& outcome) {
+    const Counts& c = outcome.field;
+    if (options.worst_by == "tips") return c.tips - c.tips_right + c.ends - c.ends_found;
+    if (options.worst_by == "crossings") return c.crossings - c.crossings_right;
+    return c.places - c.found;
+  };
+  std::stable_sort(outcomes.begin(), outcomes.end(),
+                   [&](const Outcome& a, const Outcome& b) { return wrong(a) > wrong(b); });
   std::filesystem::create_directories(options.pictures);
   auto network = strand::one_network(weights);
   for (std::size_t i = 0; i < std::min(options.worst, outcomes.size()) && network; ++i) {
@@ -248,8 +298,10 @@ int run(const Options& options) {
     const auto file = options.pictures /
                       fmt::format("{:02}_{}_{}.png", i, outcomes[i].index, outcomes[i].scenario);
     cv::imwrite(file.string(), drawn);
-    fmt::print("{}: {} of {} places missed\n", file.string(),
-               outcomes[i].field.places - outcomes[i].field.found, outcomes[i].field.places);
+    const Counts& c = outcomes[i].field;
+    fmt::print("{}: {} of {} places missed; {} of {} tips are none, {} of {} ends missed\n",
+               file.string(), c.places - c.found, c.places, c.tips - c.tips_right, c.tips,
+               c.ends - c.ends_found, c.ends);
   }
   return 0;
 }
@@ -270,6 +322,8 @@ int main(int argc, char** argv) {
   app.add_flag("--width-of-mask", options.width_of_mask,
                "Believe the width that the path measures");
   app.add_option("--pictures", options.pictures, "Folder for pictures of the worst scenes");
+  app.add_option("--worst-by", options.worst_by, "By what a scene is worse than another")
+      ->check(CLI::IsMember({"places", "tips", "crossings"}));
   app.add_option("--worst", options.worst, "How many pictures")->check(CLI::Range(0, 1000));
   CLI11_PARSE(app, argc, argv);
   return run(options);

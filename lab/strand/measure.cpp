@@ -110,6 +110,14 @@ bool same_direction(float a, float b) {
   return std::abs(std::sin(a - b)) < std::sin(kDegrees * kPi / 180);
 }
 
+float middle_width(const std::vector<Place>& places) {
+  std::vector<float> widths;
+  for (const Place& place : places) widths.push_back(place.width);
+  const auto middle = widths.begin() + static_cast<std::ptrdiff_t>(widths.size() / 2);
+  std::nth_element(widths.begin(), middle, widths.end());
+  return *middle;
+}
+
 void measure_tips(const std::vector<Strand>& strands, const std::vector<Eigen::Vector2f>& tips,
                   float width, Counts& counts) {
   const auto ends = visible_tips(strands);
@@ -171,9 +179,7 @@ Counts measure(const std::vector<Strand>& strands, const cv::Mat& mask,
   cv::Mat around;
   cv::dilate(mask, around, cv::Mat::ones(5, 5, CV_8U));
   const Grid<field::RidgePoint> shown(ridge, 8);
-  std::vector<float> widths;
   for (const Place& place : places) {
-    widths.push_back(place.width);
     const int u = static_cast<int>(std::lround(place.u));
     const int v = static_cast<int>(std::lround(place.v));
     if (u < 0 || v < 0 || u >= mask.cols || v >= mask.rows) continue;
@@ -203,10 +209,34 @@ Counts measure(const std::vector<Strand>& strands, const cv::Mat& mask,
     ++counts.merged_shown;
     counts.merged_right += right;
   }
-  const auto middle = widths.begin() + static_cast<std::ptrdiff_t>(widths.size() / 2);
-  std::nth_element(widths.begin(), middle, widths.end());
-  measure_tips(strands, tips, *middle, counts);
+  measure_tips(strands, tips, middle_width(places), counts);
   return counts;
+}
+
+TipLevels& TipLevels::operator+=(const TipLevels& other) {
+  tips.insert(tips.end(), other.tips.begin(), other.tips.end());
+  ends.insert(ends.end(), other.ends.begin(), other.ends.end());
+  return *this;
+}
+
+TipLevels tip_levels(const std::vector<Strand>& strands, const field::Channels& field,
+                     float least) {
+  TipLevels levels;
+  const auto places = places_of(strands);
+  if (places.empty()) return levels;
+  const float width = middle_width(places);
+  const auto ends = visible_tips(strands);
+  levels.ends.assign(ends.size(), 0);
+  for (const Eigen::Vector2f& tip : field::tips(field, least)) {
+    const auto level = field.at(static_cast<int>(tip.y()), static_cast<int>(tip.x()))[field::kTip];
+    levels.tips.push_back({tip, level, false});
+    for (std::size_t i = 0; i < ends.size(); ++i) {
+      if (std::hypot(ends[i].x - tip.x(), ends[i].y - tip.y()) >= width) continue;
+      levels.tips.back().right = true;
+      levels.ends[i] = std::max(levels.ends[i], level);
+    }
+  }
+  return levels;
 }
 
 void measure_crossings(const std::vector<Strand>& strands, const cv::Mat& field, Counts& counts) {

@@ -37,6 +37,23 @@ struct Counts {
                              const std::vector<field::RidgePoint>& ridge,
                              const std::vector<Eigen::Vector2f>& tips);
 
+/// Tips and ends by how clearly they show, for any least kTip.
+struct TipLevels {
+  struct Tip {
+    Eigen::Vector2f px;  ///< of the region
+    float level = 0;     ///< kTip there
+    bool right = false;
+  };
+  std::vector<Tip> tips;
+  std::vector<float> ends;  ///< kTip of the clearest tip within a width of each end; 0: none
+
+  TipLevels& operator+=(const TipLevels& other);
+};
+
+/// Of a field [height, width, field::kChannels] all tips of kTip `least` and more.
+[[nodiscard]] TipLevels tip_levels(const std::vector<Strand>& strands, const field::Channels& field,
+                                   float least);
+
 /// Adds crossings to `counts`: of strands in the region against the field's direction there.
 void measure_crossings(const std::vector<Strand>& strands, const cv::Mat& field, Counts& counts);
 

@@ -93,6 +93,24 @@ Middles near_others(const std::vector<Strand>& strands) {
   return near;
 }
 
+/// The last visible points before a strand goes behind what is no rope.
+Middles before_others(const std::vector<Strand>& strands, const FrameFolder& folder) {
+  const auto within = [&](const AxisPoint& p) {
+    return p.u > 0 && p.v > 0 && p.u < static_cast<float>(folder.width - 1) &&
+           p.v < static_cast<float>(folder.height - 1);
+  };
+  Middles found;
+  for (const Strand& strand : strands) {
+    for (std::size_t i = 1; i < strand.points.size(); ++i) {
+      const AxisPoint& a = strand.points[i - 1];
+      const AxisPoint& b = strand.points[i];
+      if (a.seen == Seen::kYes && b.seen == Seen::kNo && within(b)) found.push_back(&a);
+      if (b.seen == Seen::kYes && a.seen == Seen::kNo && within(a)) found.push_back(&b);
+    }
+  }
+  return found;
+}
+
 class Cutter {
  public:
   Cutter(const PatchConfig& config, std::uint64_t seed, std::uint64_t index)
@@ -101,6 +119,7 @@ class Cutter {
   std::vector<synth::Window> choose(const synth::SyntheticFrame& frame) {
     strands_ = strands_of(frame);
     const Middles near = near_others(strands_);
+    hidden_ = config_.hidden_share > 0 ? before_others(strands_, frame.folder) : Middles{};
     Middles visible;
     for (const Strand& strand : strands_) {
       for (const AxisPoint& point : strand.points) {
@@ -153,6 +172,9 @@ class Cutter {
           uniform(0, 1) * static_cast<double>(strands_.size()) * 0.999)];
       const AxisPoint& end = uniform(0, 1) < 0.5 ? strand.points.front() : strand.points.back();
       if (end.seen == Seen::kYes) return end;
+    } else if (share < config_.near_share + config_.end_share + config_.hidden_share &&
+               !hidden_.empty()) {
+      return any_of(hidden_);
     }
     return any_of(visible);
   }
@@ -163,6 +185,7 @@ class Cutter {
   const PatchConfig& config_;
   std::mt19937_64 random_;
   std::vector<Strand> strands_;
+  Middles hidden_;
   std::vector<synth::Window> windows_;
   std::vector<double> middles_;  // widths there, frame pixels
 };
@@ -263,10 +286,12 @@ std::vector<Strand> strands_of(const synth::SyntheticFrame& frame) {
 }
 
 Result<std::vector<Patch>> patches_of(synth::Split split, synth::Part part, std::uint64_t seed,
-                                      std::uint64_t index, const PatchConfig& config) {
+                                      std::uint64_t index, const PatchConfig& config,
+                                      bool matched) {
   Cutter cutter(config, seed, index);
   synth::Render render;
   render.dense = true;
+  render.matched = matched;
   render.windows = [&](const synth::SyntheticFrame& frame) { return cutter.choose(frame); };
   const auto frame = synth::make_frame(split, part, seed, index, render);
   if (!frame) return frame.error();

@@ -54,12 +54,15 @@ struct PatchConfig {
   double most_rope_px = 10;  ///< a wider rope is shrunk to that
   double near_share = 0.55;  ///< of patches around places where strands come near each other
   double end_share = 0.2;    ///< around ends
+  double hidden_share = 0;   ///< around places where a strand goes behind another thing: no ends
 };
 
-/// A frame of `index`, and patches of it. Deterministic. Fails as synth::make_frame does.
+/// A frame of `index`, and patches of it. `matched`: with depth as a stereo camera matches it,
+/// where the scene has one. Deterministic. Fails as synth::make_frame does.
 [[nodiscard]] Result<std::vector<Patch>> patches_of(synth::Split split, synth::Part part,
                                                     std::uint64_t seed, std::uint64_t index,
-                                                    const PatchConfig& config = {});
+                                                    const PatchConfig& config = {},
+                                                    bool matched = false);
 
 /// The strands of a whole frame in its own pixels, for measures on frames.
 [[nodiscard]] std::vector<Strand> strands_of(const synth::SyntheticFrame& frame);

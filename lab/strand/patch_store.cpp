@@ -122,11 +122,12 @@ std::filesystem::path shard_file(const std::filesystem::path& folder, std::uint6
   return folder / fmt::format("patches_{:05}.bin", shard);
 }
 
-synth::Split split_of(std::uint64_t scene, double several) {
+/// Whether a scene is one of a share of all that is evenly spread.
+bool among(double share, std::uint64_t scene) {
   const auto so_far = [&](std::uint64_t scenes) {
-    return std::floor(several * static_cast<double>(scenes));
+    return std::floor(share * static_cast<double>(scenes));
   };
-  return so_far(scene + 1) > so_far(scene) ? synth::Split::kSeveral : synth::Split::kWide;
+  return so_far(scene + 1) > so_far(scene);
 }
 
 Result<void> make_shard(const std::filesystem::path& file, std::uint64_t shard,
@@ -134,8 +135,9 @@ Result<void> make_shard(const std::filesystem::path& file, std::uint64_t shard,
   std::vector<std::vector<std::uint8_t>> packed;
   for (std::uint64_t i = 0; i < kShardScenes; ++i) {
     const std::uint64_t scene = shard * kShardScenes + i;
-    const auto patches = patches_of(split_of(scene, config.several), synth::Part::kTraining,
-                                    config.seed, scene, config.patch);
+    const auto split = among(config.several, scene) ? synth::Split::kSeveral : synth::Split::kWide;
+    const auto patches = patches_of(split, synth::Part::kTraining, config.seed, scene, config.patch,
+                                    among(config.matched, scene));
     if (!patches) return patches.error();
     for (const Patch& patch : *patches) {
       Writer writer;

@@ -20,6 +20,7 @@ void visit(Visitor& visitor, Recipe& recipe) {
     v.whole("seed", recipe.data.seed, 0, kMany);
     v.whole("scenes", recipe.data.scenes, 1, kMany);
     v.real("several", recipe.data.several, 0, 1);
+    v.real("matched", recipe.data.matched, 0, 1);
     v.group("patch", [&](Visitor& inside) {
       PatchConfig& patch = recipe.data.patch;
       inside.whole("each", patch.each, 1, 100);
@@ -28,6 +29,7 @@ void visit(Visitor& visitor, Recipe& recipe) {
       inside.real("most_rope_px", patch.most_rope_px, 4, 100);
       inside.real("near_share", patch.near_share, 0, 1);
       inside.real("end_share", patch.end_share, 0, 1);
+      inside.real("hidden_share", patch.hidden_share, 0, 1);
     });
   });
   visitor.group("spoil", [&](Visitor& v) {
@@ -39,6 +41,9 @@ void visit(Visitor& visitor, Recipe& recipe) {
     v.real("no_depth", spoil.no_depth, 0, 1);
     v.real("mask_alone", spoil.mask_alone, 0, 1);
     v.real("grey", spoil.grey, 0, 1);
+    v.real("flat", spoil.flat, 0, 1);
+    v.real("dark", spoil.dark, 0, 1);
+    v.real("moved", spoil.moved, 0, 1);
   });
   visitor.group("loss", [&](Visitor& v) {
     LossConfig& loss = recipe.loss;

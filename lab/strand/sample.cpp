@@ -193,6 +193,17 @@ void add_noise(cv::Mat& image, float deviation, Dice& dice) {
   image += noise;
 }
 
+/// Noise of a camera whose pixels are `pixel_px` wide here, in levels of 255.
+void add_camera_noise(cv::Mat& image, float levels, float pixel_px, Dice& dice) {
+  const int side =
+      std::max(2, static_cast<int>(static_cast<float>(image.cols) / std::max(1.0F, pixel_px)));
+  cv::Mat coarse = cv::Mat::zeros(side, side, image.type());
+  add_noise(coarse, levels / 255, dice);
+  cv::Mat fine;
+  cv::resize(coarse, fine, image.size(), 0, 0, cv::INTER_LINEAR);
+  image += fine;
+}
+
 // -- Masks --------------------------------------------------------------------------------------
 
 void grow(cv::Mat& mask, int size) {
@@ -426,6 +437,36 @@ void turn_hue(Dice& dice, cv::Mat& color) {
   cv::transform(color, color, turn);
 }
 
+/// What a thing looks like that moves while the shutter is open.
+void blur_along(int length_px, float angle, cv::Mat& color) {
+  cv::Mat kernel = cv::Mat::zeros(length_px, length_px, CV_32F);
+  const auto half = 0.5F * static_cast<float>(length_px - 1);
+  cv::line(kernel,
+           {static_cast<int>(std::lround(half - half * std::cos(angle))),
+            static_cast<int>(std::lround(half - half * std::sin(angle)))},
+           {static_cast<int>(std::lround(half + half * std::cos(angle))),
+            static_cast<int>(std::lround(half + half * std::sin(angle)))},
+           cv::Scalar(1));
+  kernel /= cv::sum(kernel)[0];
+  cv::filter2D(color, color, -1, kernel);
+}
+
+/// A picture that tells little: one colour everywhere, hardly any light, or a long exposure.
+/// `pixel_px`: the camera's pixel in pixels of the sample. Shares of 0 draw no dice.
+void spoil_picture(const SpoilConfig& config, float pixel_px, Dice& dice, cv::Mat& color) {
+  if (config.moved > 0 && dice.chance(config.moved)) {
+    const auto most = static_cast<int>(2 * field::kRope_px);
+    blur_along(dice.integer(5, most), dice.uniform(0, kPi), color);
+  }
+  const bool dark = config.dark > 0 && dice.chance(config.dark);
+  const bool flat = !dark && config.flat > 0 && dice.chance(config.flat);
+  if (!dark && !flat) return;
+  if (flat) color.setTo(cv::mean(color));
+  if (dark) color *= dice.factor(0.03F, 0.3F);
+  add_camera_noise(color, dice.factor(0.5F, 3), pixel_px, dice);
+  color = cv::min(cv::max(color, 0), 1);
+}
+
 void spoil_color(const SpoilConfig& config, Dice& dice, cv::Mat& color) {
   if (dice.chance(config.grey)) {
     const float a = dice.uniform(0, 1);
@@ -455,17 +496,7 @@ void spoil_color(const SpoilConfig& config, Dice& dice, cv::Mat& color) {
   }
   if (dice.chance(0.1)) {  // motion
     const int length = dice.integer(3, 7);
-    const float angle = dice.uniform(0, kPi);
-    cv::Mat kernel = cv::Mat::zeros(length, length, CV_32F);
-    const auto half = 0.5F * static_cast<float>(length - 1);
-    cv::line(kernel,
-             {static_cast<int>(std::lround(half - half * std::cos(angle))),
-              static_cast<int>(std::lround(half - half * std::sin(angle)))},
-             {static_cast<int>(std::lround(half + half * std::cos(angle))),
-              static_cast<int>(std::lround(half + half * std::sin(angle)))},
-             cv::Scalar(1));
-    kernel /= cv::sum(kernel)[0];
-    cv::filter2D(color, color, -1, kernel);
+    blur_along(length, dice.uniform(0, kPi), color);
   }
   if (dice.chance(0.2)) {  // what a low resolution or strong compression leaves
     cv::Mat small;
@@ -544,6 +575,7 @@ Sample sample_of(const Patch& patch, int size_px, std::uint64_t seed, std::uint6
     dress_rope(truth, dice, sight.color);
     dress_ground(truth, dice, sight.color);
     spoil_color(config, dice, sight.color);
+    spoil_picture(config, patch.frame_scale * placing.scale, dice, sight.color);
   }
   if (alone || dice.chance(config.no_depth)) {
     sight.depth_m.setTo(0);

@@ -20,6 +20,9 @@ struct SpoilConfig {
   double no_depth = 0.15;
   double mask_alone = 0.03;
   double grey = 0.25;
+  double flat = 0;   ///< one colour everywhere, and the camera's noise
+  double dark = 0;   ///< a few per cent of the light, and the camera's noise
+  double moved = 0;  ///< blurred along a line of up to two widths of the rope
 };
 
 struct Sample {

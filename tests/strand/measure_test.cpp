@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <opencv2/imgproc.hpp>
 
 #include "mat/mat_image.hpp"
@@ -41,6 +42,30 @@ TEST(Measure, APerfectFieldFindsAllAndNothingElse) {
   EXPECT_EQ(counts.ends, 4);
   EXPECT_EQ(counts.ends_found, 4);
   EXPECT_EQ(counts.tips_right, counts.tips);
+}
+
+TEST(Measure, TipsAndEndsAreCountedByHowClearlyTheyShow) {
+  std::vector<Strand> strands{straight(10, 30, 110, 30, 0), straight(30, 50, 90, 50, 1)};
+  for (Strand& strand : strands) strand.begins = strand.ends = true;
+  strands[1].ends = false;  // the field will show a tip there that is none
+  std::vector<Strand> shows = strands;
+  shows[1].ends = true;
+  shows[0].ends = false;  // and will not show one that is
+  auto field = shown(targets_of(shows, kFocal_px, {120, 70}));
+  for (int v = 0; v < field.height(); ++v) {
+    for (int u = 60; u < field.width(); ++u) field.at(v, u)[field::kTip] *= 0.6F;
+  }
+  const TipLevels levels = tip_levels(strands, field, 0.3F);
+  ASSERT_EQ(levels.tips.size(), 3U);
+  int right = 0;
+  for (const auto& tip : levels.tips) {
+    right += tip.right;
+    EXPECT_EQ(tip.right, tip.level > 0.7F) << "only the wrong one lies in the fainter half";
+  }
+  EXPECT_EQ(right, 2);
+  ASSERT_EQ(levels.ends.size(), 3U);
+  EXPECT_EQ(std::count(levels.ends.begin(), levels.ends.end(), 0.0F), 1);
+  EXPECT_EQ(tip_levels(strands, field, 0.7F).tips.size(), 2U);
 }
 
 TEST(Measure, ThinningOfAMergedMaskFindsNeitherStrand) {

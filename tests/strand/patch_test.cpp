@@ -61,9 +61,13 @@ TEST(Patch, AWideRopeIsShrunk) {
 class PatchStoreTest : public ::testing::Test {
  protected:
   void make(std::uint64_t scenes) {
-    const auto made = make_patches(
-        folder_.path(), {.seed = kSeed, .scenes = scenes, .several = several_, .patch = small_}, 2,
-        [] {});
+    const auto made = make_patches(folder_.path(),
+                                   {.seed = kSeed,
+                                    .scenes = scenes,
+                                    .several = several_,
+                                    .matched = matched_,
+                                    .patch = small_},
+                                   2, [] {});
     ASSERT_TRUE(made) << made.error().message;
   }
   [[nodiscard]] std::filesystem::path first_shard() const {
@@ -72,6 +76,7 @@ class PatchStoreTest : public ::testing::Test {
 
   PatchConfig small_{.each = 1, .half_widths = 4, .least_half_px = 12};
   double several_ = 0;
+  double matched_ = 0;
   test::TemporaryFolder folder_;
 };
 
@@ -103,6 +108,30 @@ TEST_F(PatchStoreTest, AShareOfTheScenesShowsSeveralRopes) {
   }
   EXPECT_GT(several, 10);
   EXPECT_LT(several, 30);
+}
+
+TEST_F(PatchStoreTest, AShareOfTheScenesHasMatchedDepth) {
+  small_.each = 2;
+  matched_ = 0.2;
+  make(1);
+  const auto store = PatchStore::open(folder_.path());
+  ASSERT_TRUE(store) << store.error().message;
+  std::size_t at = 0;
+  int others = 0;
+  for (std::uint64_t scene = 0; scene < kShardScenes && at < store->size(); ++scene) {
+    const auto modelled =
+        patches_of(synth::Split::kWide, synth::Part::kTraining, kSeed, scene, small_);
+    ASSERT_TRUE(modelled);
+    for (const Patch& patch : *modelled) {
+      const auto stored = store->read(at++);
+      ASSERT_TRUE(stored);
+      EXPECT_EQ(stored->mask, patch.mask) << "depth alone is another";
+      if (stored->depth == patch.depth) continue;
+      EXPECT_EQ(scene % 5, 4U) << "every fifth scene";
+      ++others;
+    }
+  }
+  EXPECT_GT(others, 4) << "more than half of all scenes are seen by a stereo camera";
 }
 
 TEST_F(PatchStoreTest, AnEmptyFolderIsAnError) {

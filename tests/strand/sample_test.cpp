@@ -114,6 +114,50 @@ TEST(Sample, WhatTheCameraDoesNotGiveIsNotThere) {
   }
 }
 
+/// How clearly the rope's middle row stands out of what lies 12 px beside it, in the red plane.
+double contrast(const SpoilConfig& config) {
+  const Patch patch = level_rope();
+  double all = 0;
+  for (std::uint64_t number = 0; number < 30; ++number) {
+    const Sample sample = sample_of(patch, kSize_px, 6, number, config);
+    double rope = 0;
+    double ground = 0;
+    double on = 0;
+    double off = 0;
+    for (int v = 0; v < kSize_px; ++v) {
+      for (int u = 0; u < kSize_px; ++u) {
+        const float red = sample.input.ptr<float>(v)[u * field::kPlanes + field::kRed];
+        const bool is_rope = channel(sample, u, v, field::kRope) > 0;
+        (is_rope ? rope : ground) += static_cast<double>(red);
+        (is_rope ? on : off) += 1;
+      }
+    }
+    if (on > 0 && off > 0) all += std::abs(rope / on - ground / off) / 30;
+  }
+  return all;
+}
+
+TEST(Sample, APictureOfOneColourTellsNothing) {
+  SpoilConfig config = gentle();
+  const double usual = contrast(config);
+  config.flat = 1;
+  const double flat = contrast(config);
+  EXPECT_GT(usual, 0.5);
+  EXPECT_LT(flat, 0.2 * usual);
+}
+
+TEST(Sample, SharesOfZeroLeaveEverySampleAsItWas) {
+  SpoilConfig config = gentle();
+  const Sample before = sample_of(level_rope(), kSize_px, 7, 3, config);
+  for (double SpoilConfig::*share : {&SpoilConfig::dark, &SpoilConfig::moved, &SpoilConfig::flat}) {
+    SpoilConfig spoiled = config;
+    spoiled.*share = 1;
+    const Sample after = sample_of(level_rope(), kSize_px, 7, 3, spoiled);
+    EXPECT_GT(cv::norm(before.input, after.input, cv::NORM_INF), 0.01);
+    EXPECT_EQ(cv::norm(before.target, after.target, cv::NORM_INF), 0);
+  }
+}
+
 TEST(Sample, EveryValueIsANumberWithinItsBounds) {
   const Patch patch = level_rope();
   for (std::uint64_t number = 0; number < 100; ++number) {
