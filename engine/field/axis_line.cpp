@@ -23,7 +23,7 @@ constexpr int kBrief = 24;            // points next to another line; more lie s
 constexpr float kChangedOver = 0.2F;  // radians that a line turns by where it may have changed over
 constexpr int kTrim = 3;              // points next to a crossing, which bend
 constexpr float kTipReach_px = 3;     // around a line's end
-constexpr float kCut = 0.4F;          // kTip on a line that two strands may make whose ends touch
+constexpr float kCut = 0.7F;          // kTip on a line that two strands make whose ends touch
 constexpr float kOpen = 0.3F;         // kTip at which a closed line is opened, or an end is one
 
 float tip_near(const Channels& field, const Vector2f& p) {
