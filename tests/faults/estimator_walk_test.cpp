@@ -21,6 +21,8 @@ namespace {
 using std::chrono::milliseconds;
 using std::chrono::seconds;
 
+/// Lavapipe that poses as a GPU compiles a GPU's kernels, on a busy machine for longer than a GPU
+/// is given: "auto" would then take the CPU before anything is made to fail.
 Config config(const char* device) {
   return {.weights = FLOWDLO_WEIGHTS,
           .device = device,
@@ -28,7 +30,8 @@ Config config(const char* device) {
           .draws = 1,
           .threads = 2,
           .max_width = 160,
-          .max_height = 120};
+          .max_height = 120,
+          .device_timeout_ms = 120000};
 }
 
 class EstimatorWalk : public Relayed {
