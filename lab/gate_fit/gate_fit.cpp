@@ -266,7 +266,7 @@ int fit(const Options& options) {
   const std::string origin = fmt::format(
       "{} on {} scenes of {} {} from {},\n"
       "// and {} and {} of thesis without a model; weights {}...",
-      options.keep_choice ? "What is chosen is kept; confidence and sigma_m are fitted" : "Fitted",
+      options.keep_choice ? "Choice kept; confidence and sigma_m fitted" : "Fitted",
       samples->size(), options.split, options.part, options.first, more->size(), clean->size(),
       info ? info->sha256.substr(0, 16) : "unknown");
   const std::string text =

@@ -13,6 +13,17 @@ constexpr std::int32_t kLost = VK_ERROR_DEVICE_LOST;
 
 class HostFaults : public Relayed {
  protected:
+  /// The wave's frame in a buffer: its depth, then its mask.
+  [[nodiscard]] VulkanFrame wave_in(const HostBuffer& buffer) const {
+    VulkanFrame frame;
+    frame.width = wave_.width;
+    frame.height = wave_.height;
+    frame.intrinsics = wave_.camera;
+    frame.depth_m = {buffer.handle(), 0};
+    frame.mask = {buffer.handle(), 4 * wave_.mask.size()};
+    return frame;
+  }
+
   WaveFrame wave_{160, 120, 7.0F};
 };
 
@@ -51,12 +62,7 @@ TEST_F(HostFaults, LossOfTheDeviceIsAnErrorWhereTheDeviceWasAskedFor) {
   auto made = Estimator::create(host_config(), program->handed_over());
   ASSERT_TRUE(made) << made.error().message;
   HostBuffer buffer(*program, 5 * wave_.mask.size());
-  VulkanFrame frame;
-  frame.width = wave_.width;
-  frame.height = wave_.height;
-  frame.intrinsics = wave_.camera;
-  frame.depth_m = {buffer.handle(), 0};
-  frame.mask = {buffer.handle(), 4 * wave_.mask.size()};
+  const VulkanFrame frame = wave_in(buffer);
   EXPECT_TRUE(made->fetch(frame));
   for (const char* const function : {"vkQueueSubmit", "vkWaitForFences"}) {
     relay()->fail(function, 1, kLost);
@@ -77,12 +83,7 @@ TEST_F(HostFaults, AFetchThatFailsLeavesTheNextOneAsItWas) {
   ASSERT_TRUE(made) << made.error().message;
   HostBuffer buffer(*program, 5 * wave_.mask.size());
   buffer.bytes()[4 * wave_.mask.size()] = 200;
-  VulkanFrame frame;
-  frame.width = wave_.width;
-  frame.height = wave_.height;
-  frame.intrinsics = wave_.camera;
-  frame.depth_m = {buffer.handle(), 0};
-  frame.mask = {buffer.handle(), 4 * wave_.mask.size()};
+  const VulkanFrame frame = wave_in(buffer);
   for (const char* const function :
        {"vkCreateBuffer", "vkAllocateMemory", "vkBindBufferMemory", "vkMapMemory",
         "vkCreateCommandPool", "vkCreateFence", "vkAllocateCommandBuffers", "vkBeginCommandBuffer",
