@@ -20,6 +20,15 @@ std::string processor_name() {
   return "CPU";
 }
 
+bool processor_multiplies_bf16() {
+#if defined(__x86_64__)
+  return __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512dq") &&
+         __builtin_cpu_supports("avx512vl");
+#else
+  return false;
+#endif
+}
+
 }  // namespace
 
 Result<torch::Device> choose_device(const std::string& wanted) {
@@ -40,6 +49,11 @@ std::string describe(torch::Device device) {
   }
   return fmt::format("{}, {} threads, libtorch {}", processor_name(), at::get_num_threads(),
                      TORCH_VERSION);
+}
+
+torch::ScalarType compute_type(Precision wanted, torch::Device device) {
+  const bool bf16 = wanted == Precision::kBf16 && (device.is_cuda() || processor_multiplies_bf16());
+  return bf16 ? torch::kBFloat16 : torch::kFloat32;
 }
 
 void use_threads(int threads) {

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "flowdlo/result.hpp"
+#include "train/recipe.hpp"
 
 namespace flowdlo::train {
 
@@ -14,6 +15,11 @@ namespace flowdlo::train {
 
 /// In words, for the metadata: the processor's or the GPU's name, and threads.
 [[nodiscard]] std::string describe(torch::Device device);
+
+/// What a model computes in where its recipe asks for `wanted`. A processor without AVX-512 (BW, DQ
+/// and VL) has libtorch multiply bf16 by plain loops, a hundred times slower than f32: it computes
+/// in f32. The same processor always gets the same answer, so that a resumed run stays exact.
+[[nodiscard]] torch::ScalarType compute_type(Precision wanted, torch::Device device);
 
 /// Of the CPU, BLAS included; 0: one a core.
 void use_threads(int threads);

@@ -11,6 +11,7 @@
 
 #include "train/batch.hpp"
 #include "train/curves.hpp"
+#include "train/device.hpp"
 #include "train/loader.hpp"
 #include "train/objective.hpp"
 #include "train/validation.hpp"
@@ -19,10 +20,6 @@ namespace flowdlo::train {
 namespace {
 
 using torch::Tensor;
-
-torch::ScalarType compute_type(const Recipe& recipe) {
-  return recipe.optimizer.precision == Precision::kBf16 ? torch::kBFloat16 : torch::kFloat32;
-}
 
 ViewConfig view_of(const TrainingState& state) {
   return {state.recipe.variant.normalization, state.norm, state.recipe.sampling.truth_direction};
@@ -112,6 +109,10 @@ Result<void> Run::prepare() {
   auto log = TrainingLog::open(options_.folder, state_.step);
   if (!log) return log.error();
   log_ = *std::move(log);
+  const auto& wanted = state_.recipe.optimizer.precision;
+  if (wanted == Precision::kBf16 && compute_type(wanted, device_) != torch::kBFloat16) {
+    note("computing in f32: this processor has no AVX-512, without which bf16 is far slower");
+  }
   if (fresh) validate();
   return {};
 }
@@ -119,7 +120,8 @@ Result<void> Run::prepare() {
 void Run::validate() {
   const auto groups =
       validate_model(state_.best(), validation_.records, view_of(state_),
-                     state_.recipe.schedule.euler_steps, compute_type(state_.recipe), device_);
+                     state_.recipe.schedule.euler_steps,
+                     compute_type(state_.recipe.optimizer.precision, device_), device_);
   log_->add(state_.step, groups);
   state_.validation = table_of(groups);
   note(fmt::format("step {}: validation\n{}", state_.step, state_.validation));
@@ -188,7 +190,9 @@ StepReport train_step(TrainingState& state, const Batch& batch) {
   report.rate = learning_rate(recipe.optimizer, state.step);
   set_rate(*state.optimizer, report.rate, recipe.optimizer.head_rate);
   state.optimizer->zero_grad();
-  const Tensor output = state.model->forward(batch.input, compute_type(recipe));
+  const torch::ScalarType type =
+      compute_type(recipe.optimizer.precision, batch.target.truth.device());
+  const Tensor output = state.model->forward(batch.input, type);
   const Losses losses = objective(recipe.variant, recipe.objective, output, batch.target);
   losses.total.backward();
   report.gradient_norm = clip(state.model->parameters(), recipe.optimizer.clip_norm);

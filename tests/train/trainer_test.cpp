@@ -72,6 +72,19 @@ std::string losses_of(const std::filesystem::path& folder) {
   return text;
 }
 
+TEST(ComputeType, IsTheWantedOneOrF32AndNeverWider) {
+  const torch::Device gpu(torch::kCUDA, 0);
+  EXPECT_EQ(compute_type(Precision::kF32, torch::kCPU), torch::kFloat32);
+  EXPECT_EQ(compute_type(Precision::kF32, gpu), torch::kFloat32);
+  EXPECT_EQ(compute_type(Precision::kBf16, gpu), torch::kBFloat16);
+#if defined(__x86_64__)
+  const bool avx512 = __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512dq") &&
+                      __builtin_cpu_supports("avx512vl");
+  EXPECT_EQ(compute_type(Precision::kBf16, torch::kCPU),
+            avx512 ? torch::kBFloat16 : torch::kFloat32);
+#endif
+}
+
 TEST_F(Trainer, ResumedRunHasTheSameLossesToTheLastDigit) {
   Recipe recipe = small_recipe();
   recipe.optimizer.steps = 6;
