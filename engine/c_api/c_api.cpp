@@ -47,6 +47,9 @@ static_assert(FLOWDLO_DOUBT_NO_ROPE == 1U << static_cast<int>(Doubt::kNoRope));
 static_assert(FLOWDLO_DOUBT_STRANDS_LEFT == 1U << static_cast<int>(Doubt::kStrandsLeft));
 static_assert(FLOWDLO_DOUBT_BARE_GAP == 1U << static_cast<int>(Doubt::kBareGap));
 static_assert(FLOWDLO_DOUBT_GOES_ON == 1U << static_cast<int>(Doubt::kGoesOn));
+static_assert(FLOWDLO_LEFT_OUT_MODEL == 1U << static_cast<int>(LeftOut::kModel));
+static_assert(FLOWDLO_LEFT_OUT_FIELD == 1U << static_cast<int>(LeftOut::kField));
+static_assert(FLOWDLO_LEFT_OUT_READINGS == 1U << static_cast<int>(LeftOut::kReadings));
 
 flowdlo_config default_config() {
   const Config defaults;
@@ -245,6 +248,15 @@ Result<void> point_at(const flowdlo_frame_folder* folder, flowdlo_frame* out) {
   return {};
 }
 
+/// The name of the value that `bit` stands for; every other number of bits is none.
+template <class Value>
+const char* name_of_bit(std::uint32_t bit, Value last) {
+  for (int value = 0; value <= static_cast<int>(last); ++value) {
+    if (bit == 1U << static_cast<unsigned>(value)) return name_of(static_cast<Value>(value));
+  }
+  return "unknown";
+}
+
 }  // namespace
 }  // namespace flowdlo::c_api
 
@@ -255,6 +267,24 @@ const char* flowdlo_status_name(flowdlo_status status) {
   if (status == FLOWDLO_OK) return "ok";
   if (status < FLOWDLO_OK || status > FLOWDLO_OUT_OF_MEMORY) return "unknown";
   return flowdlo::name_of(static_cast<flowdlo::ErrorCode>(status - 1));
+}
+
+const char* flowdlo_source_name(int32_t source) {
+  if (source < FLOWDLO_SOURCE_PREDICTION || source > FLOWDLO_SOURCE_PRIOR) return "unknown";
+  return flowdlo::name_of(static_cast<flowdlo::Source>(source));
+}
+
+const char* flowdlo_origin_name(int32_t origin) {
+  if (origin < FLOWDLO_ORIGIN_FIRST_PRIOR || origin > FLOWDLO_ORIGIN_DRAW) return "unknown";
+  return flowdlo::name_of(static_cast<flowdlo::Origin>(origin));
+}
+
+const char* flowdlo_doubt_name(uint32_t doubt) {
+  return c_api::name_of_bit(doubt, flowdlo::Doubt::kGoesOn);
+}
+
+const char* flowdlo_left_out_name(uint32_t part) {
+  return c_api::name_of_bit(part, flowdlo::LeftOut::kReadings);
 }
 
 const char* flowdlo_last_error() { return c_api::last_error(); }

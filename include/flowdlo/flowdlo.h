@@ -247,6 +247,14 @@ enum {
   FLOWDLO_LEFT_OUT_READINGS = 4 /* the eroded mask, though there was doubt */
 };
 
+/* The names that JSON, Python and ROS give to these values: "prior", "runner_up", "no_rope",
+ * "strand_field"; "unknown" for what is none of them. flowdlo_doubt_name and flowdlo_left_out_name
+ * take one bit. The text lives as long as the process. */
+FLOWDLO_EXPORT const char* flowdlo_source_name(int32_t source);
+FLOWDLO_EXPORT const char* flowdlo_origin_name(int32_t origin);
+FLOWDLO_EXPORT const char* flowdlo_doubt_name(uint32_t doubt);
+FLOWDLO_EXPORT const char* flowdlo_left_out_name(uint32_t part);
+
 /* flowdlo::Estimate of <flowdlo/estimate.hpp>, which says more of each field, without the reports
  * of single draws and of the parts of a device's time. */
 typedef struct flowdlo_estimate {
