@@ -7,7 +7,9 @@
 #include <utility>
 #include <vector>
 
+#include "c_api/answers.hpp"
 #include "c_api/arguments.hpp"
+#include "c_api/handles.hpp"
 #include "c_api/images.hpp"
 #include "c_api/last_error.hpp"
 #include "c_api/sized.hpp"
@@ -18,12 +20,6 @@
 
 struct flowdlo_frame_folder {
   flowdlo::FrameFolder content;
-};
-
-struct flowdlo_estimator {
-  flowdlo::Estimator estimator;
-  flowdlo::c_api::Copies copies;
-  std::vector<flowdlo::Alternative> alternatives;  ///< of the last estimate
 };
 
 namespace flowdlo::c_api {
@@ -73,7 +69,7 @@ flowdlo_config default_config() {
           .reserved = 0,
           .budget_ms = defaults.budget_ms,
           .probe = defaults.probe ? 1 : 0,
-          .reserved_2 = 0};
+          .ropes = defaults.ropes};
 }
 
 Config config_of(const flowdlo_config& given) {
@@ -96,56 +92,8 @@ Config config_of(const flowdlo_config& given) {
   config.validation = given.validation != 0;
   config.budget_ms = given.budget_ms;
   config.probe = given.probe != 0;
+  config.ropes = given.ropes;
   return config;
-}
-
-void copy_nodes(const Centerline& nodes, float (&to)[FLOWDLO_NODES][3]) {
-  for (std::size_t node = 0; node < nodes.size(); ++node) {
-    to[node][0] = nodes[node].x;
-    to[node][1] = nodes[node].y;
-    to[node][2] = nodes[node].z;
-  }
-}
-
-flowdlo_estimate plain(const Estimate& estimate) {
-  flowdlo_estimate out{};
-  copy_nodes(estimate.nodes, out.nodes);
-  std::copy(estimate.sigma_m.begin(), estimate.sigma_m.end(), out.sigma_m);
-  std::copy(estimate.support.begin(), estimate.support.end(), out.support);
-  out.confidence = estimate.confidence;
-  out.mask_agreement = estimate.mask_agreement;
-  out.prior_mask_agreement = estimate.prior_mask_agreement;
-  out.source = static_cast<std::int32_t>(estimate.source);
-  out.draw = estimate.draw;
-  out.calibrated = estimate.calibrated ? 1 : 0;
-  out.readings = estimate.readings;
-  const OneRope& one = estimate.one_rope;
-  for (const Doubt doubt : one.doubts) out.doubts |= 1U << static_cast<unsigned>(doubt);
-  out.alternatives = static_cast<std::int32_t>(estimate.alternatives.size());
-  out.accepted_draws = static_cast<std::int32_t>(
-      std::count_if(estimate.draws.begin(), estimate.draws.end(),
-                    [](const DrawReport& draw) { return draw.accepted; }));
-  out.explained = one.explained;
-  out.slender = one.slender;
-  out.sides = one.sides;
-  out.even = one.even;
-  out.left_over = one.left_over;
-  out.off_mask = one.off_mask;
-  out.bare_gap = one.bare_gap;
-  out.goes_on = one.goes_on;
-  const Timings& timings = estimate.timings;
-  out.evidence_ms = timings.evidence_ms;
-  out.path_ms = timings.path_ms;
-  out.prior_ms = timings.prior_ms;
-  out.readings_ms = timings.readings_ms;
-  out.mask_field_ms = timings.mask_field_ms;
-  out.model_ms = timings.model_ms;
-  out.gate_ms = timings.gate_ms;
-  out.total_ms = timings.total_ms;
-  for (const LeftOut part : estimate.left_out) out.left_out |= 1U << static_cast<unsigned>(part);
-  out.closed = estimate.closed ? 1 : 0;
-  out.origin = static_cast<std::int32_t>(estimate.origin);
-  return out;
 }
 
 Result<void> create(const flowdlo_config* given, flowdlo_estimator** out) {
@@ -156,18 +104,16 @@ Result<void> create(const flowdlo_config* given, flowdlo_estimator** out) {
   if (given != nullptr) {
     if (const auto fits = check_size(given); !fits) return fits.error();
     config = read(given, config);
-    for (const auto& [name, value] :
-         {std::pair{"reserved", config.reserved}, std::pair{"reserved_2", config.reserved_2}}) {
-      if (value == 0) continue;
+    if (config.reserved != 0) {
       return Error{ErrorCode::kBadInput,
-                   fmt::format("flowdlo_config.{}: expected 0, got {}; fill the struct with "
+                   fmt::format("flowdlo_config.reserved: expected 0, got {}; fill the struct with "
                                "flowdlo_config_init before use",
-                               name, value)};
+                               config.reserved)};
     }
   }
   auto estimator = Estimator::create(config_of(config));
   if (!estimator) return estimator.error();
-  *out = std::make_unique<flowdlo_estimator>(flowdlo_estimator{*std::move(estimator), {}, {}})
+  *out = std::make_unique<flowdlo_estimator>(flowdlo_estimator{*std::move(estimator), {}, {}, {}})
              .release();
   return {};
 }
@@ -177,7 +123,7 @@ Result<void> estimate(flowdlo_estimator* estimator, const flowdlo_frame* given,
   if (const auto there = check_there(estimator, "flowdlo_estimator_estimate: estimator"); !there) {
     return there.error();
   }
-  estimator->alternatives.clear();
+  estimator->forget();
   if (const auto fits = check_size(given); !fits) return fits.error();
   if (const auto fits = check_size(out); !fits) return fits.error();
   const auto frame = frame_of(read(given, default_frame()), estimator->copies);

@@ -26,7 +26,7 @@ class Config(ctypes.Structure):
         *((name, ctypes.c_int32) for name in "threads max_width max_height timeout".split()),
         *((name, ctypes.c_int32) for name in ("validation", "reserved")),
         ("budget_ms", ctypes.c_double),
-        *((name, ctypes.c_int32) for name in ("probe", "reserved_2")),
+        *((name, ctypes.c_int32) for name in ("probe", "ropes")),
     ]
 
 
