@@ -1,5 +1,5 @@
-# Debian packages by CPack: libflowdlo0.1, libflowdlo-dev, flowdlo, python3-flowdlo. scripts/package
-# configures a build for them: prefix /usr, no RUNPATH, Debian's place for Python packages.
+# Debian packages by CPack: libflowdlo0.1, libflowdlo-dev, flowdlo, python3-flowdlo, flowdlo-ros.
+# scripts/package configures a build for them: prefix /usr, no RUNPATH, Debian's place for Python packages.
 if(NOT PROJECT_IS_TOP_LEVEL OR NOT BUILD_SHARED_LIBS OR NOT UNIX OR APPLE)
   return()
 endif()
@@ -67,12 +67,23 @@ flowdlo_package(development libflowdlo-dev libdevel
 flowdlo_package(command flowdlo science "centerlines of ropes from RGB-D frames: the command"
                 "libflowdlo${abi} (= ${version})")
 set(CPACK_DEBIAN_COMMAND_PACKAGE_SUGGESTS ffmpeg)  # for --video
+set(compiles_python "${PROJECT_SOURCE_DIR}/cmake/debian/postinst;${PROJECT_SOURCE_DIR}/cmake/debian/prerm")
 if(TARGET flowdlo_python)
   list(APPEND CPACK_COMPONENTS_ALL python)
-  set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA "${PROJECT_SOURCE_DIR}/cmake/debian/postinst;${PROJECT_SOURCE_DIR}/cmake/debian/prerm")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA "${compiles_python}")
   math(EXPR next "${Python_VERSION_MINOR} + 1")
   flowdlo_package(python python3-flowdlo python "centerlines of ropes from RGB-D frames: for Python"
                   "libflowdlo${abi} (= ${version}), python3-numpy, python3 (>= ${Python_VERSION_MAJOR}.${Python_VERSION_MINOR}), python3 (<< ${Python_VERSION_MAJOR}.${next})")
+endif()
+set(FLOWDLO_ROS_STAGE "" CACHE PATH "Where scripts/package has installed the packages of ROS 1; empty: no flowdlo-ros")
+if(FLOWDLO_ROS_STAGE)
+  list(APPEND CPACK_COMPONENTS_ALL ros)
+  install(DIRECTORY "${FLOWDLO_ROS_STAGE}/usr/" DESTINATION "${CMAKE_INSTALL_PREFIX}" COMPONENT ros
+          EXCLUDE_FROM_ALL USE_SOURCE_PERMISSIONS PATTERN "__pycache__" EXCLUDE)
+  set(CPACK_DEBIAN_ROS_PACKAGE_CONTROL_EXTRA "${compiles_python}")
+  set(CPACK_DEBIAN_ROS_PACKAGE_RECOMMENDS "python3-roslaunch, rosbash, libnodeletlib-tools")
+  flowdlo_package(ros flowdlo-ros science "centerlines of ropes from RGB-D frames: for ROS 1"
+                  "libflowdlo${abi} (= ${version}), python3, python3-genpy, python3-geometry-msgs, python3-std-msgs")
 endif()
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_CONTROL_EXTRA "${PROJECT_BINARY_DIR}/papers/triggers")
 file(WRITE "${PROJECT_BINARY_DIR}/papers/triggers" "activate-noawait ldconfig\n")

@@ -31,52 +31,6 @@ py::array_t<Value> array_of(std::vector<Value>&& values, const std::vector<py::s
   return py::array_t<Value>(sizes, data, keeper);
 }
 
-const char* name_of(Source source) {
-  return source == Source::kPrediction ? "prediction" : "prior";
-}
-
-const char* name_of(Origin origin) {
-  switch (origin) {
-    case Origin::kFirstPrior:
-      return "first_prior";
-    case Origin::kRunnerUp:
-      return "runner_up";
-    case Origin::kOtherReading:
-      return "other_reading";
-    case Origin::kFrameBefore:
-      return "frame_before";
-    case Origin::kDraw:
-      return "draw";
-  }
-  return "unknown";
-}
-
-const char* name_of(Doubt doubt) {
-  switch (doubt) {
-    case Doubt::kNoRope:
-      return "no_rope";
-    case Doubt::kStrandsLeft:
-      return "strands_left";
-    case Doubt::kBareGap:
-      return "bare_gap";
-    case Doubt::kGoesOn:
-      return "goes_on";
-  }
-  return "no_rope";
-}
-
-const char* name_of(LeftOut part) {
-  switch (part) {
-    case LeftOut::kModel:
-      return "model";
-    case LeftOut::kField:
-      return "strand_field";
-    case LeftOut::kReadings:
-      return "readings";
-  }
-  return "model";
-}
-
 const char* name_of(DeviceKind kind) {
   switch (kind) {
     case DeviceKind::kDiscreteGpu:

@@ -93,32 +93,6 @@ Json alternatives_json(const std::vector<Alternative>& alternatives) {
   return list;
 }
 
-const char* name_of(Doubt doubt) {
-  switch (doubt) {
-    case Doubt::kNoRope:
-      return "no_rope";
-    case Doubt::kStrandsLeft:
-      return "strands_left";
-    case Doubt::kBareGap:
-      return "bare_gap";
-    case Doubt::kGoesOn:
-      return "goes_on";
-  }
-  return "unknown";
-}
-
-const char* name_of(LeftOut part) {
-  switch (part) {
-    case LeftOut::kModel:
-      return "model";
-    case LeftOut::kField:
-      return "strand_field";
-    case LeftOut::kReadings:
-      return "readings";
-  }
-  return "unknown";
-}
-
 Json one_rope_json(const OneRope& one) {
   Json doubts = Json::array();
   for (const Doubt doubt : one.doubts) doubts.push_back(name_of(doubt));
@@ -152,34 +126,10 @@ std::string text_of(const Json& json) {
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-}  // namespace
-
-const char* name_of(Source source) {
-  return source == Source::kPrediction ? "prediction" : "prior";
-}
-
-const char* name_of(Origin origin) {
-  switch (origin) {
-    case Origin::kFirstPrior:
-      return "first_prior";
-    case Origin::kRunnerUp:
-      return "runner_up";
-    case Origin::kOtherReading:
-      return "other_reading";
-    case Origin::kFrameBefore:
-      return "frame_before";
-    case Origin::kDraw:
-      return "draw";
-  }
-  return "unknown";
-}
-
-namespace {
-
 Json whole_json(const Estimate& estimate, const Provenance& provenance) {
   Json json = header("ok", sentence(estimate), provenance);
-  json["source"] = tools::name_of(estimate.source);
-  json["origin"] = tools::name_of(estimate.origin);
+  json["source"] = name_of(estimate.source);
+  json["origin"] = name_of(estimate.origin);
   json["draw"] = estimate.draw < 0 ? Json(nullptr) : Json(estimate.draw);
   json["gate"] = estimate.calibrated ? "calibrated" : "thesis";
   json["confidence"] = number(estimate.confidence);
@@ -233,8 +183,8 @@ Json rope_json(const Ropes& ropes, std::size_t index) {
   for (const float sigma : rope.sigma_m) sigma_m.push_back(number(sigma));
   return {{"nodes", std::move(nodes)},
           {"closed", rope.closed},
-          {"source", tools::name_of(rope.source)},
-          {"origin", tools::name_of(rope.origin)},
+          {"source", name_of(rope.source)},
+          {"origin", name_of(rope.origin)},
           {"support", rope.support},
           {"sigma_m", std::move(sigma_m)},
           {"confidence", number(rope.confidence)},
@@ -259,7 +209,7 @@ std::string ropes_json(const Ropes& ropes, const Provenance& provenance) {
 }
 
 std::string failure_json(const Error& error, const Provenance& provenance) {
-  return text_of(header(flowdlo::name_of(error.code), error.message, provenance));
+  return text_of(header(name_of(error.code), error.message, provenance));
 }
 
 }  // namespace flowdlo::tools

@@ -19,12 +19,6 @@ struct Provenance {
   std::uint64_t seed = 0;
 };
 
-/// "prediction" or "prior".
-[[nodiscard]] const char* name_of(Source source);
-
-/// "first_prior", "runner_up", "other_reading", "frame_before" or "draw".
-[[nodiscard]] const char* name_of(Origin origin);
-
 /// JSON text with `status` "ok"; numbers that are not finite are null.
 [[nodiscard]] std::string estimate_json(const Estimate& estimate, const Provenance& provenance);
 

@@ -7,7 +7,9 @@
 #include <utility>
 #include <vector>
 
+#include "c_api/answers.hpp"
 #include "c_api/arguments.hpp"
+#include "c_api/handles.hpp"
 #include "c_api/images.hpp"
 #include "c_api/last_error.hpp"
 #include "c_api/sized.hpp"
@@ -18,12 +20,6 @@
 
 struct flowdlo_frame_folder {
   flowdlo::FrameFolder content;
-};
-
-struct flowdlo_estimator {
-  flowdlo::Estimator estimator;
-  flowdlo::c_api::Copies copies;
-  std::vector<flowdlo::Alternative> alternatives;  ///< of the last estimate
 };
 
 namespace flowdlo::c_api {
@@ -47,6 +43,9 @@ static_assert(FLOWDLO_DOUBT_NO_ROPE == 1U << static_cast<int>(Doubt::kNoRope));
 static_assert(FLOWDLO_DOUBT_STRANDS_LEFT == 1U << static_cast<int>(Doubt::kStrandsLeft));
 static_assert(FLOWDLO_DOUBT_BARE_GAP == 1U << static_cast<int>(Doubt::kBareGap));
 static_assert(FLOWDLO_DOUBT_GOES_ON == 1U << static_cast<int>(Doubt::kGoesOn));
+static_assert(FLOWDLO_LEFT_OUT_MODEL == 1U << static_cast<int>(LeftOut::kModel));
+static_assert(FLOWDLO_LEFT_OUT_FIELD == 1U << static_cast<int>(LeftOut::kField));
+static_assert(FLOWDLO_LEFT_OUT_READINGS == 1U << static_cast<int>(LeftOut::kReadings));
 
 flowdlo_config default_config() {
   const Config defaults;
@@ -70,7 +69,7 @@ flowdlo_config default_config() {
           .reserved = 0,
           .budget_ms = defaults.budget_ms,
           .probe = defaults.probe ? 1 : 0,
-          .reserved_2 = 0};
+          .ropes = defaults.ropes};
 }
 
 Config config_of(const flowdlo_config& given) {
@@ -93,56 +92,8 @@ Config config_of(const flowdlo_config& given) {
   config.validation = given.validation != 0;
   config.budget_ms = given.budget_ms;
   config.probe = given.probe != 0;
+  config.ropes = given.ropes;
   return config;
-}
-
-void copy_nodes(const Centerline& nodes, float (&to)[FLOWDLO_NODES][3]) {
-  for (std::size_t node = 0; node < nodes.size(); ++node) {
-    to[node][0] = nodes[node].x;
-    to[node][1] = nodes[node].y;
-    to[node][2] = nodes[node].z;
-  }
-}
-
-flowdlo_estimate plain(const Estimate& estimate) {
-  flowdlo_estimate out{};
-  copy_nodes(estimate.nodes, out.nodes);
-  std::copy(estimate.sigma_m.begin(), estimate.sigma_m.end(), out.sigma_m);
-  std::copy(estimate.support.begin(), estimate.support.end(), out.support);
-  out.confidence = estimate.confidence;
-  out.mask_agreement = estimate.mask_agreement;
-  out.prior_mask_agreement = estimate.prior_mask_agreement;
-  out.source = static_cast<std::int32_t>(estimate.source);
-  out.draw = estimate.draw;
-  out.calibrated = estimate.calibrated ? 1 : 0;
-  out.readings = estimate.readings;
-  const OneRope& one = estimate.one_rope;
-  for (const Doubt doubt : one.doubts) out.doubts |= 1U << static_cast<unsigned>(doubt);
-  out.alternatives = static_cast<std::int32_t>(estimate.alternatives.size());
-  out.accepted_draws = static_cast<std::int32_t>(
-      std::count_if(estimate.draws.begin(), estimate.draws.end(),
-                    [](const DrawReport& draw) { return draw.accepted; }));
-  out.explained = one.explained;
-  out.slender = one.slender;
-  out.sides = one.sides;
-  out.even = one.even;
-  out.left_over = one.left_over;
-  out.off_mask = one.off_mask;
-  out.bare_gap = one.bare_gap;
-  out.goes_on = one.goes_on;
-  const Timings& timings = estimate.timings;
-  out.evidence_ms = timings.evidence_ms;
-  out.path_ms = timings.path_ms;
-  out.prior_ms = timings.prior_ms;
-  out.readings_ms = timings.readings_ms;
-  out.mask_field_ms = timings.mask_field_ms;
-  out.model_ms = timings.model_ms;
-  out.gate_ms = timings.gate_ms;
-  out.total_ms = timings.total_ms;
-  for (const LeftOut part : estimate.left_out) out.left_out |= 1U << static_cast<unsigned>(part);
-  out.closed = estimate.closed ? 1 : 0;
-  out.origin = static_cast<std::int32_t>(estimate.origin);
-  return out;
 }
 
 Result<void> create(const flowdlo_config* given, flowdlo_estimator** out) {
@@ -153,18 +104,16 @@ Result<void> create(const flowdlo_config* given, flowdlo_estimator** out) {
   if (given != nullptr) {
     if (const auto fits = check_size(given); !fits) return fits.error();
     config = read(given, config);
-    for (const auto& [name, value] :
-         {std::pair{"reserved", config.reserved}, std::pair{"reserved_2", config.reserved_2}}) {
-      if (value == 0) continue;
+    if (config.reserved != 0) {
       return Error{ErrorCode::kBadInput,
-                   fmt::format("flowdlo_config.{}: expected 0, got {}; fill the struct with "
+                   fmt::format("flowdlo_config.reserved: expected 0, got {}; fill the struct with "
                                "flowdlo_config_init before use",
-                               name, value)};
+                               config.reserved)};
     }
   }
   auto estimator = Estimator::create(config_of(config));
   if (!estimator) return estimator.error();
-  *out = std::make_unique<flowdlo_estimator>(flowdlo_estimator{*std::move(estimator), {}, {}})
+  *out = std::make_unique<flowdlo_estimator>(flowdlo_estimator{*std::move(estimator), {}, {}, {}})
              .release();
   return {};
 }
@@ -174,7 +123,7 @@ Result<void> estimate(flowdlo_estimator* estimator, const flowdlo_frame* given,
   if (const auto there = check_there(estimator, "flowdlo_estimator_estimate: estimator"); !there) {
     return there.error();
   }
-  estimator->alternatives.clear();
+  estimator->forget();
   if (const auto fits = check_size(given); !fits) return fits.error();
   if (const auto fits = check_size(out); !fits) return fits.error();
   const auto frame = frame_of(read(given, default_frame()), estimator->copies);
@@ -245,6 +194,15 @@ Result<void> point_at(const flowdlo_frame_folder* folder, flowdlo_frame* out) {
   return {};
 }
 
+/// The name of the value that `bit` stands for; every other number of bits is none.
+template <class Value>
+const char* name_of_bit(std::uint32_t bit, Value last) {
+  for (int value = 0; value <= static_cast<int>(last); ++value) {
+    if (bit == 1U << static_cast<unsigned>(value)) return name_of(static_cast<Value>(value));
+  }
+  return "unknown";
+}
+
 }  // namespace
 }  // namespace flowdlo::c_api
 
@@ -255,6 +213,24 @@ const char* flowdlo_status_name(flowdlo_status status) {
   if (status == FLOWDLO_OK) return "ok";
   if (status < FLOWDLO_OK || status > FLOWDLO_OUT_OF_MEMORY) return "unknown";
   return flowdlo::name_of(static_cast<flowdlo::ErrorCode>(status - 1));
+}
+
+const char* flowdlo_source_name(int32_t source) {
+  if (source < FLOWDLO_SOURCE_PREDICTION || source > FLOWDLO_SOURCE_PRIOR) return "unknown";
+  return flowdlo::name_of(static_cast<flowdlo::Source>(source));
+}
+
+const char* flowdlo_origin_name(int32_t origin) {
+  if (origin < FLOWDLO_ORIGIN_FIRST_PRIOR || origin > FLOWDLO_ORIGIN_DRAW) return "unknown";
+  return flowdlo::name_of(static_cast<flowdlo::Origin>(origin));
+}
+
+const char* flowdlo_doubt_name(uint32_t doubt) {
+  return c_api::name_of_bit(doubt, flowdlo::Doubt::kGoesOn);
+}
+
+const char* flowdlo_left_out_name(uint32_t part) {
+  return c_api::name_of_bit(part, flowdlo::LeftOut::kReadings);
 }
 
 const char* flowdlo_last_error() { return c_api::last_error(); }

@@ -22,7 +22,7 @@ template <>
 struct Kind<flowdlo_config> {
   static constexpr const char* kName = "flowdlo_config";
   static constexpr std::size_t kFirstBytes =
-      offsetof(flowdlo_config, reserved_2) + sizeof(flowdlo_config::reserved_2);
+      offsetof(flowdlo_config, ropes) + sizeof(flowdlo_config::ropes);
   static_assert(sizeof(flowdlo_config) == kFirstBytes);
 };
 
@@ -72,6 +72,22 @@ struct Kind<flowdlo_seed_growth> {
   static constexpr std::size_t kFirstBytes =
       offsetof(flowdlo_seed_growth, smooth) + sizeof(flowdlo_seed_growth::smooth);
   static_assert(sizeof(flowdlo_seed_growth) == kFirstBytes);
+};
+
+template <>
+struct Kind<flowdlo_hints> {
+  static constexpr const char* kName = "flowdlo_hints";
+  static constexpr std::size_t kFirstBytes =
+      offsetof(flowdlo_hints, ends) + sizeof(flowdlo_hints::ends);
+  static_assert(sizeof(flowdlo_hints) == kFirstBytes);
+};
+
+template <>
+struct Kind<flowdlo_crossing> {
+  static constexpr const char* kName = "flowdlo_crossing";
+  static constexpr std::size_t kFirstBytes =
+      offsetof(flowdlo_crossing, reserved) + sizeof(flowdlo_crossing::reserved);
+  static_assert(sizeof(flowdlo_crossing) == kFirstBytes);
 };
 
 /// The struct is there and of a size that a version up to this one has.

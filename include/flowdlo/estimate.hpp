@@ -15,6 +15,11 @@ namespace flowdlo {
 /// Which branch of Eq. (3.33) produced the nodes.
 enum class Source { kPrediction, kPrior };
 
+/// The name without its k, in snake_case, as JSON, Python and ROS give it: "prior".
+[[nodiscard]] constexpr const char* name_of(Source source) {
+  return source == Source::kPrediction ? "prediction" : "prior";
+}
+
 /// Which of all candidates the nodes are.
 enum class Origin {
   kFirstPrior,    ///< the prior of the way through the mask that explains the frame best
@@ -23,6 +28,23 @@ enum class Origin {
   kFrameBefore,   ///< Hints::previous: the rope lies where it lay
   kDraw,          ///< a draw of the model
 };
+
+/// "first_prior", "runner_up", "other_reading", "frame_before" or "draw".
+[[nodiscard]] constexpr const char* name_of(Origin origin) {
+  switch (origin) {
+    case Origin::kFirstPrior:
+      return "first_prior";
+    case Origin::kRunnerUp:
+      return "runner_up";
+    case Origin::kOtherReading:
+      return "other_reading";
+    case Origin::kFrameBefore:
+      return "frame_before";
+    case Origin::kDraw:
+      return "draw";
+  }
+  return "unknown";
+}
 
 /// The gate's view of one draw, Eq. (3.30)-(3.32).
 struct DrawReport {
@@ -50,6 +72,21 @@ enum class Doubt {
   kGoesOn,       ///< depth shows the rope going on where the mask ends
 };
 
+/// "no_rope", "strands_left", "bare_gap" or "goes_on".
+[[nodiscard]] constexpr const char* name_of(Doubt doubt) {
+  switch (doubt) {
+    case Doubt::kNoRope:
+      return "no_rope";
+    case Doubt::kStrandsLeft:
+      return "strands_left";
+    case Doubt::kBareGap:
+      return "bare_gap";
+    case Doubt::kGoesOn:
+      return "goes_on";
+  }
+  return "unknown";
+}
+
 /// Whether the mask is one rope, the whole of it, and all of it explained by the nodes. Widths are
 /// the rope's, as the mask has it.
 struct OneRope {
@@ -70,6 +107,19 @@ enum class LeftOut {
   kField,     ///< the strand field
   kReadings,  ///< the eroded mask
 };
+
+/// "model", "strand_field" or "readings".
+[[nodiscard]] constexpr const char* name_of(LeftOut part) {
+  switch (part) {
+    case LeftOut::kModel:
+      return "model";
+    case LeftOut::kField:
+      return "strand_field";
+    case LeftOut::kReadings:
+      return "readings";
+  }
+  return "unknown";
+}
 
 /// Milliseconds of each stage of one call. The stages sum to total_ms; beside_ms is in no sum.
 struct Timings {

@@ -83,7 +83,7 @@ typedef struct flowdlo_config {
   int32_t reserved;          /* 0 */
   double budget_ms;          /* that an estimate may take, milliseconds; 0: no limit */
   int32_t probe;             /* 1: Vulkan drivers are asked in processes of their own first */
-  int32_t reserved_2;        /* 0 */
+  int32_t ropes;             /* that flowdlo_estimator_estimate_ropes looks for; 0: all, 1..32 */
 } flowdlo_config;
 
 /* Fills `config` with the defaults. `struct_size` is sizeof(flowdlo_config). */
@@ -247,6 +247,14 @@ enum {
   FLOWDLO_LEFT_OUT_READINGS = 4 /* the eroded mask, though there was doubt */
 };
 
+/* The names that JSON, Python and ROS give to these values: "prior", "runner_up", "no_rope",
+ * "strand_field"; "unknown" for what is none of them. flowdlo_doubt_name and flowdlo_left_out_name
+ * take one bit. The text lives as long as the process. */
+FLOWDLO_EXPORT const char* flowdlo_source_name(int32_t source);
+FLOWDLO_EXPORT const char* flowdlo_origin_name(int32_t origin);
+FLOWDLO_EXPORT const char* flowdlo_doubt_name(uint32_t doubt);
+FLOWDLO_EXPORT const char* flowdlo_left_out_name(uint32_t part);
+
 /* flowdlo::Estimate of <flowdlo/estimate.hpp>, which says more of each field, without the reports
  * of single draws and of the parts of a device's time. */
 typedef struct flowdlo_estimate {
@@ -322,6 +330,72 @@ FLOWDLO_EXPORT flowdlo_status flowdlo_estimator_estimate(flowdlo_estimator* esti
 FLOWDLO_EXPORT flowdlo_status flowdlo_estimator_alternative(const flowdlo_estimator* estimator,
                                                             int32_t index,
                                                             flowdlo_alternative* alternative);
+
+/* ---- What is known beside the frame ---- */
+
+enum { FLOWDLO_PLACE_NONE = 0, FLOWDLO_PLACE_PIXEL = 1, FLOWDLO_PLACE_POINT = 2 };
+
+/* Where an end of the rope is: a pixel of the whole images, or a point of the camera frame. */
+typedef struct flowdlo_place {
+  int32_t kind; /* FLOWDLO_PLACE_ */
+  float at[3];  /* pixel: column, row, not read; point: x, y, z, metres */
+} flowdlo_place;
+
+/* flowdlo::Hints of <flowdlo/hints.hpp>, which says more of each field. */
+typedef struct flowdlo_hints {
+  size_t struct_size;      /* bytes; flowdlo_hints_init */
+  const float* previous;   /* [FLOWDLO_NODES, 3] nodes of the frame before; NULL: none. They keep
+                            * the order of the ends, so that a stream can be tracked */
+  double rope_length_m;    /* of the whole rope, metres; 0: as flowdlo_config says */
+  flowdlo_place first_end; /* the end nearest to it is node 0 */
+  flowdlo_place ends[2];   /* where the rope ends, as far as that is known */
+} flowdlo_hints;
+
+/* Fills `hints` with nothing known. `struct_size` is sizeof(flowdlo_hints). */
+FLOWDLO_EXPORT flowdlo_status flowdlo_hints_init(flowdlo_hints* hints, size_t struct_size);
+
+/* As flowdlo_estimator_estimate, of one rope. `hints` NULL: nothing is known. */
+FLOWDLO_EXPORT flowdlo_status flowdlo_estimator_estimate_with_hints(flowdlo_estimator* estimator,
+                                                                    const flowdlo_frame* frame,
+                                                                    const flowdlo_hints* hints,
+                                                                    flowdlo_estimate* estimate);
+
+/* ---- Several ropes ---- */
+
+/* Where one rope passes over another, or over itself. */
+typedef struct flowdlo_crossing {
+  size_t struct_size; /* bytes; flowdlo_crossing_init */
+  int32_t over;       /* index of the rope nearer to the camera */
+  int32_t under;      /* and of the other; the same where a rope passes over itself */
+  float over_at_m;    /* arclength from node 0 of `over`, metres */
+  float under_at_m;   /* arclength from node 0 of `under`, metres */
+  float apart_m;      /* by how much the one is nearer than the other along the ray, metres */
+  int32_t reserved;   /* 0 */
+} flowdlo_crossing;
+
+/* Fills `crossing` with zeros. `struct_size` is sizeof(flowdlo_crossing). */
+FLOWDLO_EXPORT flowdlo_status flowdlo_crossing_init(flowdlo_crossing* crossing, size_t struct_size);
+
+/* Estimates each rope of the frame on its own, flowdlo_config.ropes of them, and says how many ropes
+ * and crossings there are. `crossings` may be NULL. They stay with the estimator until its next
+ * estimate. Fails as flowdlo_estimator_estimate does, and with FLOWDLO_NO_PATH where there are fewer
+ * ropes than asked for, or more than 32. */
+FLOWDLO_EXPORT flowdlo_status flowdlo_estimator_estimate_ropes(flowdlo_estimator* estimator,
+                                                               const flowdlo_frame* frame,
+                                                               int32_t* ropes, int32_t* crossings);
+
+/* Rope `index` of the last flowdlo_estimator_estimate_ropes, longest first. */
+FLOWDLO_EXPORT flowdlo_status flowdlo_estimator_rope(const flowdlo_estimator* estimator,
+                                                     int32_t index, flowdlo_estimate* estimate);
+
+/* Crossing `index` of it. */
+FLOWDLO_EXPORT flowdlo_status flowdlo_estimator_crossing(const flowdlo_estimator* estimator,
+                                                         int32_t index, flowdlo_crossing* crossing);
+
+/* Which rope each pixel of the mask was given to, from 1; 0: none. Writes [height, width] of the
+ * frame, or of its region of interest; `count` is height x width. */
+FLOWDLO_EXPORT flowdlo_status flowdlo_estimator_instances(const flowdlo_estimator* estimator,
+                                                          uint16_t* instances, size_t count);
 
 /* "cpu", or the name of the Vulkan device in use; "" for NULL. Valid until the estimator's next
  * estimate, or its end. */

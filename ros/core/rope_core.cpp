@@ -106,27 +106,14 @@ flowdlo::Intrinsics intrinsics_of(const Camera& camera, bool rectified) {
   return {number(camera.k[0]), number(camera.k[4]), number(camera.k[2]), number(camera.k[5])};
 }
 
-const char* name_of(flowdlo::Doubt doubt) {
-  switch (doubt) {
-    case flowdlo::Doubt::kNoRope:
-      return "no_rope";
-    case flowdlo::Doubt::kStrandsLeft:
-      return "strands_left";
-    case flowdlo::Doubt::kBareGap:
-      return "bare_gap";
-    case flowdlo::Doubt::kGoesOn:
-      return "goes_on";
-  }
-  return "no_rope";
-}
-
 Rope rope_of(const flowdlo::Estimate& estimate) {
   Rope rope;
   for (const auto& node : estimate.nodes) rope.nodes.push_back({node.x, node.y, node.z});
   rope.sigma_m.assign(estimate.sigma_m.begin(), estimate.sigma_m.end());
   rope.support.assign(estimate.support.begin(), estimate.support.end());
   rope.confidence = estimate.confidence;
-  rope.source = estimate.source == flowdlo::Source::kPrediction ? "prediction" : "prior";
+  rope.source = name_of(estimate.source);
+  rope.origin = name_of(estimate.origin);
   for (const auto doubt : estimate.one_rope.doubts) rope.doubts.emplace_back(name_of(doubt));
   rope.closed = estimate.closed;
   return rope;

@@ -57,7 +57,8 @@ struct Rope {
   std::vector<float> sigma_m;               ///< 64
   std::vector<bool> support;                ///< 64
   float confidence = 0;
-  std::string source;
+  std::string source;  ///< name_of(Source)
+  std::string origin;  ///< name_of(Origin)
   std::vector<std::string> doubts;
   bool closed = false;
 };

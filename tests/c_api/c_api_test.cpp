@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cstdint>
 #include <cstring>
 #include <memory>
 #include <stdexcept>
@@ -239,9 +240,9 @@ TEST(CApi, EveryFieldOfTheConfigReachesTheEstimator) {  // each fault is named o
   EXPECT_EQ(flowdlo_estimator_create(&config, &estimator), FLOWDLO_BAD_INPUT);
   EXPECT_THAT(flowdlo_last_error(), HasSubstr("flowdlo_config.reserved: expected 0, got 1"));
   config = config_with(FLOWDLO_WEIGHTS);
-  config.reserved_2 = 2;
+  config.ropes = 33;
   EXPECT_EQ(flowdlo_estimator_create(&config, &estimator), FLOWDLO_BAD_INPUT);
-  EXPECT_THAT(flowdlo_last_error(), HasSubstr("flowdlo_config.reserved_2: expected 0, got 2"));
+  EXPECT_THAT(flowdlo_last_error(), HasSubstr("Config.ropes: "));
   config = config_with("no/such/file.fdw");
   EXPECT_NE(flowdlo_estimator_create(&config, &estimator), FLOWDLO_OK);
   EXPECT_THAT(flowdlo_last_error(), HasSubstr("no/such/file.fdw"));
@@ -392,6 +393,38 @@ TEST(CApi, StatusesHaveTheNamesOfTheErrorCodes) {
   EXPECT_STREQ(flowdlo_status_name(FLOWDLO_OUT_OF_MEMORY), "out_of_memory");
   EXPECT_STREQ(flowdlo_status_name(-1), "unknown");
   EXPECT_STREQ(flowdlo_status_name(FLOWDLO_OUT_OF_MEMORY + 1), "unknown");
+}
+
+TEST(CApi, SourcesOriginsDoubtsAndPartsLeftOutHaveOneNameInEveryLanguage) {
+  EXPECT_STREQ(flowdlo_source_name(FLOWDLO_SOURCE_PREDICTION), "prediction");
+  EXPECT_STREQ(flowdlo_source_name(FLOWDLO_SOURCE_PRIOR), "prior");
+  EXPECT_STREQ(flowdlo_origin_name(FLOWDLO_ORIGIN_FIRST_PRIOR), "first_prior");
+  EXPECT_STREQ(flowdlo_origin_name(FLOWDLO_ORIGIN_RUNNER_UP), "runner_up");
+  EXPECT_STREQ(flowdlo_origin_name(FLOWDLO_ORIGIN_OTHER_READING), "other_reading");
+  EXPECT_STREQ(flowdlo_origin_name(FLOWDLO_ORIGIN_FRAME_BEFORE), "frame_before");
+  EXPECT_STREQ(flowdlo_origin_name(FLOWDLO_ORIGIN_DRAW), "draw");
+  EXPECT_STREQ(flowdlo_doubt_name(FLOWDLO_DOUBT_NO_ROPE), "no_rope");
+  EXPECT_STREQ(flowdlo_doubt_name(FLOWDLO_DOUBT_STRANDS_LEFT), "strands_left");
+  EXPECT_STREQ(flowdlo_doubt_name(FLOWDLO_DOUBT_BARE_GAP), "bare_gap");
+  EXPECT_STREQ(flowdlo_doubt_name(FLOWDLO_DOUBT_GOES_ON), "goes_on");
+  EXPECT_STREQ(flowdlo_left_out_name(FLOWDLO_LEFT_OUT_MODEL), "model");
+  EXPECT_STREQ(flowdlo_left_out_name(FLOWDLO_LEFT_OUT_FIELD), "strand_field");
+  EXPECT_STREQ(flowdlo_left_out_name(FLOWDLO_LEFT_OUT_READINGS), "readings");
+}
+
+TEST(CApi, WhatIsNoValueIsCalledUnknown) {
+  for (const int value : {-1, FLOWDLO_SOURCE_PRIOR + 1, INT32_MAX, INT32_MIN}) {
+    EXPECT_STREQ(flowdlo_source_name(value), "unknown") << value;
+  }
+  for (const int value : {-1, FLOWDLO_ORIGIN_DRAW + 1, INT32_MAX, INT32_MIN}) {
+    EXPECT_STREQ(flowdlo_origin_name(value), "unknown") << value;
+  }
+  for (const std::uint32_t bits : {0U, 3U, 2U * FLOWDLO_DOUBT_GOES_ON, UINT32_MAX}) {
+    EXPECT_STREQ(flowdlo_doubt_name(bits), "unknown") << bits;
+  }
+  for (const std::uint32_t bits : {0U, 6U, 2U * FLOWDLO_LEFT_OUT_READINGS, UINT32_MAX}) {
+    EXPECT_STREQ(flowdlo_left_out_name(bits), "unknown") << bits;
+  }
 }
 
 TEST(CApi, VersionIsTheHeaders) { EXPECT_STREQ(flowdlo_version(), FLOWDLO_VERSION); }

@@ -11,6 +11,8 @@ from conftest import SMALL
 LIBRARY = ctypes.CDLL(os.environ["FLOWDLO_LIBRARY"])
 LIBRARY.flowdlo_last_error.restype = ctypes.c_char_p
 LIBRARY.flowdlo_version.restype = ctypes.c_char_p
+for name in ("source", "origin", "doubt"):
+    getattr(LIBRARY, f"flowdlo_{name}_name").restype = ctypes.c_char_p
 PIXEL_F32, PIXEL_U16, PIXEL_U8, PIXEL_BGR8, PIXEL_RGB8 = range(1, 6)
 
 
@@ -24,7 +26,7 @@ class Config(ctypes.Structure):
         *((name, ctypes.c_int32) for name in "threads max_width max_height timeout".split()),
         *((name, ctypes.c_int32) for name in ("validation", "reserved")),
         ("budget_ms", ctypes.c_double),
-        *((name, ctypes.c_int32) for name in ("probe", "reserved_2")),
+        *((name, ctypes.c_int32) for name in ("probe", "ropes")),
     ]
 
 
@@ -115,13 +117,12 @@ def assert_same(in_c, in_python):
     assert bytes(in_c.sigma_m) == in_python.sigma_m.tobytes()
     assert bytes(in_c.support) == in_python.support.tobytes()
     assert in_c.confidence == in_python.confidence
-    assert in_c.source == ("prediction", "prior").index(in_python.source)
-    origins = ("first_prior", "runner_up", "other_reading", "frame_before", "draw")
-    assert in_c.origin == origins.index(in_python.origin)
+    assert LIBRARY.flowdlo_source_name(in_c.source).decode() == in_python.source
+    assert LIBRARY.flowdlo_origin_name(in_c.origin).decode() == in_python.origin
     assert in_c.alternatives == len(in_python.alternatives)
-    names = ("no_rope", "strands_left", "bare_gap", "goes_on")
-    doubts = tuple(name for bit, name in enumerate(names) if in_c.doubts >> bit & 1)
-    assert set(doubts) == set(in_python.one_rope.doubts)
+    bits = (1 << bit for bit in range(32) if in_c.doubts >> bit & 1)
+    doubts = {LIBRARY.flowdlo_doubt_name(bit).decode() for bit in bits}
+    assert doubts == set(in_python.one_rope.doubts)
 
 
 def test_versions_are_the_same():

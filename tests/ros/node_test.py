@@ -19,7 +19,8 @@ import pytest
 rospy = pytest.importorskip("rospy")
 rosbag = pytest.importorskip("rosbag")
 flowdlo_msgs = pytest.importorskip("flowdlo_msgs.msg")
-from diagnostic_msgs.msg import DiagnosticArray  # noqa: E402
+import dynamic_reconfigure.client  # noqa: E402
+from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus  # noqa: E402
 from flowdlo_msgs.srv import SetEnd  # noqa: E402
 from nav_msgs.msg import Path as PathMessage  # noqa: E402
 from sensor_msgs.msg import CameraInfo, Image  # noqa: E402
@@ -98,7 +99,7 @@ def master(tmp_path_factory):
 class Node:
     """A node under a name of its own, and what it has published."""
 
-    def __init__(self, name, **parameters):
+    def __init__(self, name, command=None, **parameters):
         self.name, self.ropes, self.paths, self.markers, self.diagnostics = name, [], [], [], []
         for key, value in {"device": "cpu", "threads": 1, **parameters}.items():
             rospy.set_param(f"/{name}/{key}", value)
@@ -110,9 +111,8 @@ class Node:
         ]
         topics = [f"{topic}:={full}" for topic, full in TOPICS.items()]
         self.process = subprocess.Popen(
-            [os.environ["FLOWDLO_NODE"], f"__name:={name}", f"camera_info:={INFO}", *topics],
-            stderr=subprocess.PIPE,
-            text=True,
+            [*(command or [os.environ["FLOWDLO_NODE"]]), f"__name:={name}", f"camera_info:={INFO}"]
+            + topics
         )
         rospy.wait_for_service(f"/{name}/reset", timeout=30)
 
@@ -130,6 +130,16 @@ class Node:
         while len(self.ropes) < count and time.monotonic() < end:
             time.sleep(0.05)
         return self.ropes
+
+    def said(self, part):
+        """The latest that diagnostics said of `part`: its level, its sentence and its values."""
+        of_it = [
+            status
+            for message in self.diagnostics
+            for status in message.status
+            if self.name in status.name and status.name.endswith(part)
+        ]
+        return of_it[-1].level, of_it[-1].message, {v.key: v.value for v in of_it[-1].values}
 
 
 def play(bag):
@@ -170,14 +180,32 @@ def test_a_played_bag_gives_what_the_command_gives(master, bag, tmp_path):
             rope = message.ropes[0]
             assert np.abs(nodes_of(message) - nodes).max() < 1e-6
             assert abs(rope.confidence - said["confidence"]) < 1e-5
-            assert rope.source == said["source"] and not rope.closed
+            assert (rope.source, rope.origin) == (said["source"], said["origin"])
+            assert not rope.closed
             assert list(rope.support) == [bool(s) for s in said["support"]]
         assert len(node.paths) == len(STAMPS) and len(node.paths[0].poses) == 64
         assert node.paths[0].header.frame_id == "rgbd_optical"
         assert {m.ns for m in node.markers[0].markers} == {"", "rope", "node_0"}
-        time.sleep(1.5)
-        names = {s.name for message in node.diagnostics for s in message.status}
-        assert any("estimate" in name for name in names) and any("ropes" in n for n in names)
+
+
+def byte_of(level):
+    return bytes([level]) if isinstance(level, int) else level
+
+
+def test_diagnostics_say_the_rate_and_whether_it_is_good(master, bag):
+    with Node("rated", least_hz=1.0, most_hz=4.0) as node, Node("slow", least_hz=50.0) as slow:
+        play(bag)
+        assert len(node.wait_for(len(STAMPS))) == len(slow.wait_for(len(STAMPS)))
+        time.sleep(1.2)  # diagnostics come once a second
+        level, _, values = node.said("ropes topic status")
+        assert 0.5 < float(values["Actual frequency (Hz)"]) < 4
+        assert int(values["Events since startup"]) == len(STAMPS)
+        level, message, values = node.said("estimate")
+        assert (byte_of(level), message) == (byte_of(DiagnosticStatus.OK), "ropes are seen")
+        assert float(values["milliseconds a frame"]) > 0
+        assert 0 < float(values["least confidence"]) <= 1
+        level, message, _ = slow.said("ropes topic status")
+        assert byte_of(level) == byte_of(DiagnosticStatus.WARN) and "too low" in message
 
 
 def test_colour_takes_the_place_of_a_mask_and_may_change_while_it_runs(master, bag):
@@ -188,6 +216,38 @@ def test_colour_takes_the_place_of_a_mask_and_may_change_while_it_runs(master, b
         time.sleep(0.5)
         play(bag)
         assert node.wait_for(len(STAMPS))
+
+
+def test_dynamic_reconfigure_and_rosparam_set_the_same_parameters(master, bag):
+    with Node("tuned", use_mask=False, rope_color=[10, 250, 10]) as node:
+        windows = dynamic_reconfigure.client.Client("/tuned", timeout=30)
+        assert windows.get_configuration()["rope_color"] == "10 250 10"
+        windows.update_configuration({"rope_color": "209 36 36"})
+        assert rospy.get_param("/tuned/rope_color") == "209 36 36"
+        play(bag)
+        assert len(node.wait_for(len(STAMPS))) == len(STAMPS)
+        rospy.set_param("/tuned/color_tolerance", 0.2)
+        rospy.set_param("/tuned/rope_color", [209, 40, 36])
+        end = time.monotonic() + 10
+        while windows.get_configuration()["rope_color"] != "209 40 36" and time.monotonic() < end:
+            time.sleep(0.1)
+        assert windows.get_configuration()["rope_color"] == "209 40 36"
+        assert windows.get_configuration()["color_tolerance"] == 0.2
+        refused = windows.update_configuration({"rope_color": "red", "keep_order": False})
+        assert refused["rope_color"] == "209 40 36" and refused["keep_order"] is False
+        play(bag)
+        assert len(node.wait_for(2 * len(STAMPS))) == 2 * len(STAMPS)
+
+
+def test_the_nodelet_sees_what_the_node_sees(master, bag, tmp_path):
+    expected = estimated(bag, tmp_path / "out")
+    nodelet = ["/usr/lib/nodelet/nodelet", "standalone", "flowdlo_ros/RopeNodelet"]
+    with Node("in_a_manager", nodelet, keep_order=False, use_color=True) as node:
+        play(bag)
+        ropes = node.wait_for(len(STAMPS))
+        assert len(ropes) == len(STAMPS)
+        for message, (nodes, _) in zip(ropes, expected):
+            assert np.abs(nodes_of(message) - nodes).max() < 1e-6
 
 
 def test_an_end_that_is_set_comes_first_until_it_is_reset(master, bag):
@@ -205,6 +265,20 @@ def test_an_end_that_is_set_comes_first_until_it_is_reset(master, bag):
         play(bag)
         again = nodes_of(node.wait_for(3 * len(STAMPS))[-1])
         assert np.abs(again - before).max() < 1e-4
+
+
+def test_a_color_that_is_none_is_named_when_the_node_starts(master):
+    rospy.set_param("/colorless/rope_color", [300, 0, 0])
+    ran = subprocess.run(
+        [os.environ["FLOWDLO_NODE"], "__name:=colorless"],
+        capture_output=True,
+        text=True,
+        timeout=30,
+    )
+    assert ran.returncode == 1
+    assert 'expected red, green and blue from 0 to 255, as [200, 30, 40], got "300 0 0"' in (
+        ran.stdout + ran.stderr
+    )
 
 
 def test_a_node_that_cannot_start_says_why(master):

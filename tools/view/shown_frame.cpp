@@ -69,8 +69,8 @@ const char* words_of(Doubt doubt) {
 }
 
 Json rope_json(const Estimate& rope) {
-  Json json{{"source", tools::name_of(rope.source)},
-            {"origin", tools::name_of(rope.origin)},
+  Json json{{"source", name_of(rope.source)},
+            {"origin", name_of(rope.origin)},
             {"confidence", number(static_cast<double>(rope.confidence))},
             {"mask_agreement", number(static_cast<double>(rope.mask_agreement))},
             {"readings", rope.readings},

@@ -9,7 +9,7 @@
 int main(int argc, char** argv) {
   ros::init(argc, argv, "flowdlo_ros");
   try {
-    const flowdlo_ros::RopeNode node;
+    const flowdlo_ros::RopeNode node({}, ros::NodeHandle("~"), ros::this_node::getName());
     ros::spin();
   } catch (const std::exception& fault) {
     std::cerr << "flowdlo_ros: " << fault.what() << '\n';

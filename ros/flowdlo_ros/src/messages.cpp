@@ -58,6 +58,7 @@ flowdlo_msgs::Ropes ropes_message(const Seen& seen, const std_msgs::Header& head
     one.support.assign(rope.support.begin(), rope.support.end());
     one.confidence = rope.confidence;
     one.source = rope.source;
+    one.origin = rope.origin;
     one.doubts = rope.doubts;
     one.closed = rope.closed;
     message.ropes.push_back(one);

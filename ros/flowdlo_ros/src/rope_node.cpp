@@ -22,7 +22,9 @@ Setup setup_of(const ros::NodeHandle& own) {
 
 }  // namespace
 
-RopeNode::RopeNode() {
+RopeNode::RopeNode(const ros::NodeHandle& topics, const ros::NodeHandle& own,
+                   const std::string& name)
+    : topics_(topics), own_(own), choices_(own), diagnostics_(topics, own, name) {
   std::string error;
   core_ = std::make_unique<RopeCore>(setup_of(own_), error);
   if (!error.empty()) throw std::runtime_error(error);
@@ -43,8 +45,10 @@ RopeNode::RopeNode() {
   diagnostics_.add("estimate", this, &RopeNode::describe);
   rate_ = std::make_unique<diagnostic_updater::HeaderlessTopicDiagnostic>(
       "ropes", diagnostics_, diagnostic_updater::FrequencyStatusParam(&least_hz_, &most_hz_));
-  ticks_ =
-      own_.createTimer(ros::Duration(1), [this](const ros::TimerEvent&) { diagnostics_.update(); });
+  ticks_ = own_.createTimer(ros::Duration(1), [this](const ros::TimerEvent&) {
+    static_cast<void>(choices_.now());  // without frames, too, windows show what rosparam has set
+    diagnostics_.update();
+  });
   subscribe();
 }
 
@@ -82,20 +86,10 @@ void RopeNode::subscribe() {
   synchronizer_ = two;
 }
 
-Choices RopeNode::choices() const {
-  Choices choices;
-  own_.getParamCached("rectified", choices.rectified);
-  own_.getParamCached("keep_order", choices.keep_order);
-  own_.getParamCached("table", choices.table);
-  own_.getParamCached("rope_color", choices.rope_color);
-  own_.getParamCached("color_tolerance", choices.color_tolerance);
-  return choices;
-}
-
 void RopeNode::see(const Depth& depth, const sensor_msgs::ImageConstPtr& mask,
                    const sensor_msgs::ImageConstPtr& color, const Info& info) {
-  const Seen seen =
-      core_->see(image_of(depth), image_of(mask), image_of(color), camera_of(*info), choices());
+  const Seen seen = core_->see(image_of(depth), image_of(mask), image_of(color), camera_of(*info),
+                               choices_.now());
   last_error_ = seen.error;
   if (!seen.error.empty()) {
     ROS_WARN_THROTTLE(5, "no ropes: %s", seen.error.c_str());

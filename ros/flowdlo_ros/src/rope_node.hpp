@@ -14,13 +14,15 @@
 #include <string>
 
 #include "messages.hpp"
+#include "rope_choices.hpp"
 
 namespace flowdlo_ros {
 
 class RopeNode {
  public:
-  /// Reads its parameters. Throws std::runtime_error where no estimator can be made of them.
-  RopeNode();
+  /// Reads its parameters below `own`. `name` is what diagnostics call it. Throws
+  /// std::runtime_error or std::invalid_argument where no estimator can be made of them.
+  RopeNode(const ros::NodeHandle& topics, const ros::NodeHandle& own, const std::string& name);
 
  private:
   using Depth = sensor_msgs::ImageConstPtr;
@@ -34,14 +36,14 @@ class RopeNode {
   /// The image is the mask where there is one, otherwise the colour.
   void see_one_of_two(const Depth& depth, const sensor_msgs::ImageConstPtr& image,
                       const Info& info);
-  [[nodiscard]] Choices choices() const;
   bool reset(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
   bool set_end(flowdlo_msgs::SetEnd::Request& request, flowdlo_msgs::SetEnd::Response& response);
   void describe(diagnostic_updater::DiagnosticStatusWrapper& status);
 
   ros::NodeHandle topics_;
-  ros::NodeHandle own_{"~"};
+  ros::NodeHandle own_;
   std::unique_ptr<RopeCore> core_;
+  RopeChoices choices_;
   bool with_mask_ = true;
   bool with_color_ = false;
 

@@ -1,0 +1,269 @@
+// Several ropes and hints through the C interface: the same bits as through the C++ one.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+#include <memory>
+#include <stdexcept>
+#include <vector>
+
+#include "flowdlo/estimator.hpp"
+#include "flowdlo/flowdlo.h"
+#include "support/wave_frame.hpp"
+
+namespace flowdlo {
+namespace {
+
+using ::testing::HasSubstr;
+using testing::WaveFrame;
+
+/// One wave below another.
+struct TwoWaves {
+  int width;
+  int height;
+  Intrinsics camera;
+  std::vector<float> depth_m;
+  std::vector<std::uint8_t> mask;
+
+  TwoWaves() {
+    const WaveFrame wave;
+    width = wave.width;
+    height = 2 * wave.height;
+    camera = wave.camera;
+    camera.cy = 0.5F * static_cast<float>(height - 1);
+    for (int i = 0; i < 2; ++i) {
+      depth_m.insert(depth_m.end(), wave.depth_m.begin(), wave.depth_m.end());
+      mask.insert(mask.end(), wave.mask.begin(), wave.mask.end());
+    }
+  }
+
+  [[nodiscard]] Frame frame() const { return {width, height, camera, depth_m, mask, {}}; }
+};
+
+struct Destroy {
+  void operator()(flowdlo_estimator* estimator) const { flowdlo_estimator_destroy(estimator); }
+};
+using Handle = std::unique_ptr<flowdlo_estimator, Destroy>;
+
+Handle make(int ropes) {
+  flowdlo_config config;
+  flowdlo_estimator* estimator = nullptr;
+  if (flowdlo_config_init(&config, sizeof(config)) != FLOWDLO_OK || config.ropes != 1) {
+    throw std::runtime_error("flowdlo_config_init");
+  }
+  config.weights = FLOWDLO_WEIGHTS;
+  config.device = "cpu";
+  config.euler_steps = 1;
+  config.draws = 1;
+  config.ropes = ropes;
+  if (flowdlo_estimator_create(&config, &estimator) != FLOWDLO_OK) {
+    throw std::runtime_error(flowdlo_last_error());
+  }
+  return Handle(estimator);
+}
+
+Estimator make_cpp(int ropes) {
+  auto estimator = Estimator::create(
+      {.weights = FLOWDLO_WEIGHTS, .device = "cpu", .euler_steps = 1, .draws = 1, .ropes = ropes});
+  if (!estimator) throw std::runtime_error(estimator.error().message);
+  return *std::move(estimator);
+}
+
+flowdlo_frame c_frame(const Frame& frame) {
+  flowdlo_frame out;
+  EXPECT_EQ(flowdlo_frame_init(&out, sizeof(out)), FLOWDLO_OK);
+  out.depth = {frame.depth_m.data(), 0, 0, FLOWDLO_PIXEL_F32, 0};
+  out.mask = {frame.mask.data(), 0, 0, FLOWDLO_PIXEL_U8, 0};
+  out.width = frame.width;
+  out.height = frame.height;
+  out.fx = frame.intrinsics.fx;
+  out.fy = frame.intrinsics.fy;
+  out.cx = frame.intrinsics.cx;
+  out.cy = frame.intrinsics.cy;
+  return out;
+}
+
+flowdlo_estimate empty_estimate() {
+  flowdlo_estimate estimate;
+  EXPECT_EQ(flowdlo_estimate_init(&estimate, sizeof(estimate)), FLOWDLO_OK);
+  return estimate;
+}
+
+flowdlo_hints no_hints() {
+  flowdlo_hints hints;
+  EXPECT_EQ(flowdlo_hints_init(&hints, sizeof(hints)), FLOWDLO_OK);
+  return hints;
+}
+
+bool same_nodes(const flowdlo_estimate& c, const Centerline& nodes) {
+  return std::memcmp(c.nodes, nodes.data(), sizeof(c.nodes)) == 0;
+}
+
+TEST(CRopes, SeveralAreThoseOfTheCppInterface) {
+  const TwoWaves waves;
+  auto reference = make_cpp(0);
+  const auto expected = reference.estimate_ropes(waves.frame());
+  ASSERT_TRUE(expected) << expected.error().message;
+  ASSERT_EQ(expected->ropes.size(), 2U);
+  const Handle estimator = make(0);
+  const flowdlo_frame frame = c_frame(waves.frame());
+
+  int ropes = 0;
+  int crossings = -1;
+  ASSERT_EQ(flowdlo_estimator_estimate_ropes(estimator.get(), &frame, &ropes, &crossings),
+            FLOWDLO_OK)
+      << flowdlo_last_error();
+  ASSERT_EQ(ropes, 2);
+  EXPECT_EQ(crossings, static_cast<int>(expected->crossings.size()));
+  for (int i = 0; i < ropes; ++i) {
+    flowdlo_estimate rope = empty_estimate();
+    ASSERT_EQ(flowdlo_estimator_rope(estimator.get(), i, &rope), FLOWDLO_OK);
+    const Estimate& of_cpp = expected->ropes[static_cast<std::size_t>(i)];
+    EXPECT_TRUE(same_nodes(rope, of_cpp.nodes)) << i;
+    EXPECT_EQ(rope.confidence, of_cpp.confidence) << i;
+  }
+  std::vector<std::uint16_t> instances(waves.mask.size());
+  ASSERT_EQ(flowdlo_estimator_instances(estimator.get(), instances.data(), instances.size()),
+            FLOWDLO_OK);
+  EXPECT_EQ(instances, expected->instances);
+}
+
+TEST(CRopes, WhereOnePassesOverTheOtherIsThatOfTheCppInterface) {
+  WaveFrame wave;
+  std::fill(wave.mask.begin(), wave.mask.end(), std::uint8_t{0});
+  std::fill(wave.depth_m.begin(), wave.depth_m.end(), 0.0F);
+  const auto stroke = [&](float from_v, float to_v, float depth_m) {
+    for (int u = 40; u < 280; ++u) {
+      const float v = from_v + (to_v - from_v) * static_cast<float>(u - 40) / 240;
+      for (int y = -4; y <= 4; ++y) {
+        const auto pixel = (static_cast<std::size_t>(std::lround(v)) + y) * wave.width + u;
+        wave.mask[pixel] = 255;
+        wave.depth_m[pixel] = depth_m;
+      }
+    }
+  };
+  stroke(50, 190, 0.42F);
+  stroke(190, 50, 0.38F);
+  auto reference = make_cpp(2);
+  const auto expected = reference.estimate_ropes(wave.frame());
+  ASSERT_TRUE(expected) << expected.error().message;
+  const Handle estimator = make(2);
+  const flowdlo_frame frame = c_frame(wave.frame());
+
+  int ropes = 0;
+  int crossings = 0;
+  ASSERT_EQ(flowdlo_estimator_estimate_ropes(estimator.get(), &frame, &ropes, &crossings),
+            FLOWDLO_OK);
+  ASSERT_GE(crossings, 1);
+  ASSERT_EQ(crossings, static_cast<int>(expected->crossings.size()));
+  flowdlo_crossing crossing;
+  ASSERT_EQ(flowdlo_crossing_init(&crossing, sizeof(crossing)), FLOWDLO_OK);
+  ASSERT_EQ(flowdlo_estimator_crossing(estimator.get(), 0, &crossing), FLOWDLO_OK);
+  const RopeCrossing& of_cpp = expected->crossings.front();
+  EXPECT_EQ(crossing.over, of_cpp.over);
+  EXPECT_EQ(crossing.under, of_cpp.under);
+  EXPECT_EQ(crossing.over_at_m, of_cpp.over_at_m);
+  EXPECT_EQ(crossing.under_at_m, of_cpp.under_at_m);
+  EXPECT_EQ(crossing.apart_m, of_cpp.apart_m);
+}
+
+TEST(CRopes, WhatIsAskedForAndNotThereIsAnError) {
+  const Handle estimator = make(0);
+  flowdlo_estimate rope = empty_estimate();
+  EXPECT_EQ(flowdlo_estimator_rope(estimator.get(), 0, &rope), FLOWDLO_BAD_INPUT);
+  EXPECT_THAT(flowdlo_last_error(), HasSubstr("below the 0 of the last"));
+  const TwoWaves waves;
+  const flowdlo_frame frame = c_frame(waves.frame());
+  int ropes = 0;
+  EXPECT_EQ(flowdlo_estimator_estimate_ropes(estimator.get(), &frame, nullptr, nullptr),
+            FLOWDLO_BAD_INPUT);
+  ASSERT_EQ(flowdlo_estimator_estimate_ropes(estimator.get(), &frame, &ropes, nullptr), FLOWDLO_OK);
+  for (const int index : {-1, ropes}) {
+    EXPECT_EQ(flowdlo_estimator_rope(estimator.get(), index, &rope), FLOWDLO_BAD_INPUT) << index;
+    flowdlo_crossing crossing{};
+    crossing.struct_size = sizeof(crossing);
+    EXPECT_EQ(flowdlo_estimator_crossing(estimator.get(), index, &crossing), FLOWDLO_BAD_INPUT);
+  }
+  std::vector<std::uint16_t> instances(waves.mask.size());
+  EXPECT_EQ(flowdlo_estimator_instances(estimator.get(), instances.data(), instances.size() - 1),
+            FLOWDLO_BAD_INPUT);
+  EXPECT_EQ(flowdlo_estimator_instances(estimator.get(), nullptr, instances.size()),
+            FLOWDLO_BAD_INPUT);
+  EXPECT_EQ(flowdlo_estimator_estimate(estimator.get(), nullptr, &rope), FLOWDLO_BAD_INPUT);
+  EXPECT_EQ(flowdlo_estimator_rope(estimator.get(), 0, &rope), FLOWDLO_BAD_INPUT)
+      << "a later estimate forgets them";
+}
+
+TEST(CHints, TheFrameBeforeKeepsTheOrderOfTheEnds) {
+  const WaveFrame wave;
+  const Handle estimator = make(1);
+  const flowdlo_frame frame = c_frame(wave.frame());
+  flowdlo_estimate first = empty_estimate();
+  ASSERT_EQ(flowdlo_estimator_estimate_with_hints(estimator.get(), &frame, nullptr, &first),
+            FLOWDLO_OK);
+  float turned[FLOWDLO_NODES][3];
+  for (int node = 0; node < FLOWDLO_NODES; ++node) {
+    std::memcpy(turned[node], first.nodes[FLOWDLO_NODES - 1 - node], sizeof(turned[node]));
+  }
+  flowdlo_hints hints = no_hints();
+  hints.previous = &turned[0][0];
+
+  flowdlo_estimate second = empty_estimate();
+  ASSERT_EQ(flowdlo_estimator_estimate_with_hints(estimator.get(), &frame, &hints, &second),
+            FLOWDLO_OK);
+  EXPECT_EQ(std::memcmp(second.nodes, turned, sizeof(turned)), 0);
+}
+
+TEST(CHints, AnEndIsAPixelOfTheWholeImagesOrAPoint) {
+  const WaveFrame wave;
+  const Handle estimator = make(1);
+  flowdlo_frame frame = c_frame(wave.frame());
+  frame.roi_u = 10;
+  frame.roi_v = 20;
+  frame.roi_width = wave.width - 10;
+  frame.roi_height = wave.height - 30;
+  flowdlo_estimate plain = empty_estimate();
+  ASSERT_EQ(flowdlo_estimator_estimate(estimator.get(), &frame, &plain), FLOWDLO_OK);
+  const float* last = plain.nodes[FLOWDLO_NODES - 1];
+  flowdlo_hints by_pixel = no_hints();
+  by_pixel.first_end = {FLOWDLO_PLACE_PIXEL,
+                        {wave.camera.fx * last[0] / last[2] + wave.camera.cx,
+                         wave.camera.fy * last[1] / last[2] + wave.camera.cy, 0}};
+  flowdlo_hints by_point = no_hints();
+  by_point.first_end = {FLOWDLO_PLACE_POINT, {last[0], last[1], last[2]}};
+  for (const flowdlo_hints* hints : {&by_pixel, &by_point}) {
+    flowdlo_estimate turned = empty_estimate();
+    ASSERT_EQ(flowdlo_estimator_estimate_with_hints(estimator.get(), &frame, hints, &turned),
+              FLOWDLO_OK)
+        << flowdlo_last_error();
+    EXPECT_EQ(std::memcmp(turned.nodes[0], last, sizeof(turned.nodes[0])), 0);
+  }
+}
+
+TEST(CHints, WhatCannotBeIsNamed) {
+  const WaveFrame wave;
+  const Handle estimator = make(1);
+  const flowdlo_frame frame = c_frame(wave.frame());
+  flowdlo_estimate estimate = empty_estimate();
+  flowdlo_hints hints = no_hints();
+  hints.ends[1].kind = 7;
+  EXPECT_EQ(flowdlo_estimator_estimate_with_hints(estimator.get(), &frame, &hints, &estimate),
+            FLOWDLO_BAD_INPUT);
+  EXPECT_THAT(flowdlo_last_error(), HasSubstr("flowdlo_hints.ends.kind: expected one of"));
+  hints = no_hints();
+  hints.rope_length_m = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(flowdlo_estimator_estimate_with_hints(estimator.get(), &frame, &hints, &estimate),
+            FLOWDLO_BAD_INPUT);
+  EXPECT_THAT(flowdlo_last_error(), HasSubstr("rope_length_m"));
+  hints.struct_size = 3;
+  EXPECT_EQ(flowdlo_estimator_estimate_with_hints(estimator.get(), &frame, &hints, &estimate),
+            FLOWDLO_BAD_INPUT);
+  EXPECT_THAT(flowdlo_last_error(), HasSubstr("flowdlo_hints_init"));
+}
+
+}  // namespace
+}  // namespace flowdlo
