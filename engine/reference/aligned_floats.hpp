@@ -1,7 +1,8 @@
-// AlignedFloats: zeroed floats that begin at a cache line.
+// AlignedFloats and AlignedHalves: zeroed values that begin at a cache line.
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <cstdlib>
 #include <memory>
 #include <new>
@@ -9,22 +10,23 @@
 
 namespace flowdlo::reference {
 
-class AlignedFloats {
+template <class Value>
+class AlignedValues {
  public:
-  AlignedFloats() = default;
+  AlignedValues() = default;
   /// Throws std::bad_alloc. Pages that nobody writes to take no memory: buffers are as large as the
   /// largest frame, and most frames are smaller.
-  explicit AlignedFloats(std::size_t count)
-      : memory_(std::calloc(count * sizeof(float) + kAlignment, 1)), count_(count) {
+  explicit AlignedValues(std::size_t count)
+      : memory_(std::calloc(count * sizeof(Value) + kAlignment, 1)), count_(count) {
     if (memory_ == nullptr) throw std::bad_alloc();
     void* begin = memory_.get();
-    std::size_t space = count * sizeof(float) + kAlignment;
-    floats_ = static_cast<float*>(std::align(kAlignment, count * sizeof(float), begin, space));
+    std::size_t space = count * sizeof(Value) + kAlignment;
+    values_ = static_cast<Value*>(std::align(kAlignment, count * sizeof(Value), begin, space));
   }
 
-  [[nodiscard]] float* data() const { return floats_; }
+  [[nodiscard]] Value* data() const { return values_; }
   [[nodiscard]] std::size_t size() const { return count_; }
-  [[nodiscard]] std::span<float> span() const { return {floats_, count_}; }
+  [[nodiscard]] std::span<Value> span() const { return {values_, count_}; }
 
  private:
   static constexpr std::size_t kAlignment = 64;
@@ -33,8 +35,11 @@ class AlignedFloats {
   };
 
   std::unique_ptr<void, Free> memory_;
-  float* floats_ = nullptr;
+  Value* values_ = nullptr;
   std::size_t count_ = 0;
 };
+
+using AlignedFloats = AlignedValues<float>;
+using AlignedHalves = AlignedValues<std::uint16_t>;  // IEEE 754 binary16
 
 }  // namespace flowdlo::reference

@@ -7,6 +7,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 
 #include "ops/program.hpp"
@@ -26,6 +27,8 @@ struct LinearBlock {
   int column;
   int columns;
   ops::Activation activation;
+  /// The panels as IEEE 754 binary16, in place of `panels`; for kernels that widen them.
+  const std::uint16_t* half_panels = nullptr;
 };
 
 /// Rows of a table: row r of the whole tensor takes table[r % period + offset]; see ops::Addend.
@@ -113,6 +116,7 @@ struct SquareBlocks {
 /// The entries of one instruction set.
 struct Kernels {
   const char* isa;
+  bool widens_halves;  ///< `linear` takes LinearBlock::half_panels
   /// Lays a weight [out, in] out for `linear` and convolutions, in as many panels as hold `out`
   /// columns.
   void (*pack)(const float* weight, int out, int in, float* panels);

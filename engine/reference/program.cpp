@@ -10,6 +10,7 @@
 #include "reference/farthest_points.hpp"
 #include "reference/flow_step.hpp"
 #include "reference/kernels.hpp"
+#include "reference/layer.hpp"
 #include "reference/mask_features.hpp"
 #include "reference/normalization.hpp"
 #include "reference/schedule.hpp"
@@ -18,15 +19,8 @@ namespace flowdlo::reference {
 namespace {
 
 constexpr int kBlockRows = ops::kRowsPerDraw;
-constexpr int kPartColumns = 64;  // of a linear layer's result
-constexpr int kRowParts = 4;      // of a block's rows, where an operation goes row by row
-constexpr int kOwnBlock = 4;      // column of an image's map
-constexpr int kMostNarrow = 8;    // inputs of a layer that ops::Narrow takes
-
-struct Layer {
-  AlignedFloats weight;  // as its kernel wants it: panels, columns, or [out, in] for the head
-  AlignedFloats bias;
-};
+constexpr int kRowParts = 4;  // of a block's rows, where an operation goes row by row
+constexpr int kOwnBlock = 4;  // column of an image's map
 
 std::ptrdiff_t floats(int rows, int columns) {
   return static_cast<std::ptrdiff_t>(rows) * static_cast<std::ptrdiff_t>(columns);
@@ -160,21 +154,7 @@ class Program final : public ops::Program {
 
 ops::LinearLayer Program::layer(std::string_view, int out, int in, std::span<const float> weight,
                                 std::span<const float> bias) {
-  Layer layer{AlignedFloats(weight.size()), AlignedFloats(bias.size())};
-  std::copy(bias.begin(), bias.end(), layer.bias.data());
-  float* const to = layer.weight.data();
-  if (in <= kMostNarrow) {
-    for (int column = 0; column < out; ++column) {
-      for (int i = 0; i < in; ++i) {
-        to[floats(i, out) + column] = weight[static_cast<std::size_t>(floats(column, in) + i)];
-      }
-    }
-  } else if (out % kPartColumns == 0) {
-    kernels_.pack(weight.data(), out, in, to);
-  } else {
-    std::copy(weight.begin(), weight.end(), to);
-  }
-  layers_.push_back(std::move(layer));
+  layers_.push_back(linear_layer(kernels_, out, in, weight, bias));
   return {static_cast<std::uint32_t>(layers_.size() - 1), in, out};
 }
 
@@ -204,7 +184,8 @@ void Program::record(const ops::Linear& op) {
          .out = op.layer.out,
          .column = piece.part * columns,
          .columns = columns,
-         .activation = op.activation});
+         .activation = op.activation,
+         .half_panels = layer.halves.data()});
   };
   schedule_.add({.blocks = op.x.rows / kBlockRows,
                  .parts = op.layer.out / kPartColumns,

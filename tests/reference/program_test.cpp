@@ -33,6 +33,7 @@ TEST(Program, DrawsOfTheSameInputAreTheSame) {
 
 TEST(Program, EveryInstructionSetOfThisProcessorAgrees) {
   const auto sets = reference::kernels_of_this_cpu();
+  if (sets.size() == 1) GTEST_SKIP() << "this processor has " << sets.back().isa << " alone";
   ASSERT_EQ(sets.back().isa, std::string("baseline"));
   const auto expected = BlockProgram(reference::create_program(2, sets.back()), 4).run();
   float largest = 0;
