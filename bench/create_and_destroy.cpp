@@ -27,7 +27,7 @@ int main(int argc, char** argv) {
     const auto heap = ::mallinfo2();
     std::printf("%4d: %7.2f MB in use, %7.1f MB resident\n", i,
                 static_cast<double>(heap.uordblks + heap.hblkhd) / 1e6,
-                flowdlo::tools::resident_mb());
+                flowdlo::support::resident_mb());
   }
   return 0;
 }

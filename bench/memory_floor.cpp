@@ -15,7 +15,7 @@ namespace flowdlo {
 namespace {
 
 void print(const char* what, double since_mb) {
-  const double now_mb = tools::resident_mb();
+  const double now_mb = support::resident_mb();
   std::printf("%-24s %7.1f MB, %6.1f MB more than at the start\n", what, now_mb, now_mb - since_mb);
 }
 
@@ -30,7 +30,7 @@ Result<void> dispatch(const std::shared_ptr<vulkan::Device>& device) {
 }
 
 int measure(const std::string& wanted) {
-  const double start_mb = tools::resident_mb();
+  const double start_mb = support::resident_mb();
   print("start", start_mb);
   const auto device = vulkan::open_device({.wanted = wanted});
   if (!device) {

@@ -1,5 +1,5 @@
 # OpenCV, for the command, the lab and the tests: opencv_core and opencv_imgproc, OpenCV_LIBS and
-# OpenCV_INCLUDE_DIRS, and flowdlo_opencv, which is all of these and the headers of lab/ that join them
+# OpenCV_INCLUDE_DIRS, and flowdlo_opencv, which is all of these and the headers of support/ that join them
 # with engine/image. Its own configuration comes with 300 packages on a bare Debian; the headers and
 # the libraries come without. Tests and the lab also link opencv_imgcodecs.
 set(libraries core imgproc)
@@ -26,6 +26,6 @@ if(NOT OpenCV_FOUND)
 endif()
 
 add_library(flowdlo_opencv INTERFACE)
-target_include_directories(flowdlo_opencv INTERFACE "${PROJECT_SOURCE_DIR}/lab")
+target_include_directories(flowdlo_opencv INTERFACE "${PROJECT_SOURCE_DIR}/support")
 target_include_directories(flowdlo_opencv SYSTEM INTERFACE ${OpenCV_INCLUDE_DIRS})
 target_link_libraries(flowdlo_opencv INTERFACE ${OpenCV_LIBS})

@@ -69,7 +69,7 @@ double peak_resident_mb() {
 // memory.
 class Frames {
  public:
-  explicit Frames(std::vector<FrameEntry> entries) : entries_(std::move(entries)) {}
+  explicit Frames(std::vector<support::FrameEntry> entries) : entries_(std::move(entries)) {}
 
   [[nodiscard]] int count() const { return static_cast<int>(entries_.size()); }
 
@@ -85,7 +85,7 @@ class Frames {
   }
 
  private:
-  std::vector<FrameEntry> entries_;
+  std::vector<support::FrameEntry> entries_;
   std::optional<FrameFolder> held_;
   std::size_t held_turn_ = 0;
 };
@@ -104,7 +104,7 @@ Result<BenchReport> measure(const BenchOptions& options, Frames& frames) {
   const bool one = frames.count() == 1;
   const int calls = options.frames.value_or(one ? kCalls : frames.count());
 
-  ProgressBar progress("bench", calls, options.quiet);
+  support::ProgressBar progress("bench", calls, options.quiet);
   for (int call = -1; call < calls; ++call) {
     const auto folder = frames.at(std::max(0, call));
     if (!folder) return folder.error();
@@ -131,45 +131,46 @@ Result<BenchReport> measure(const BenchOptions& options, Frames& frames) {
     report.frame = fmt::format("{} ({} frames)", files::shown(options.frame.filename().string()),
                                frames.count());
   }
-  report.rss_mb = resident_mb();
+  report.rss_mb = support::resident_mb();
   report.rss_peak_mb = peak_resident_mb();
   return report;
 }
 
-ExitCode complain(const Error& error) {
-  tell_error("{}\n", error.message);
+support::ExitCode complain(const Error& error) {
+  support::tell_error("{}\n", error.message);
   const bool usage = error.code == ErrorCode::kNoDevice || error.code == ErrorCode::kBadWeights;
-  return usage ? ExitCode::kUsage : ExitCode::kFailed;
+  return usage ? support::ExitCode::kUsage : support::ExitCode::kFailed;
 }
 
-ExitCode run(const BenchOptions& options) {
+support::ExitCode run(const BenchOptions& options) {
   const auto path = options.frame.empty() ? shipped_frame() : Result<fs::path>(options.frame);
   if (!path) {
-    tell_error("{}\n", path.error().message);
-    return ExitCode::kUsage;
+    support::tell_error("{}\n", path.error().message);
+    return support::ExitCode::kUsage;
   }
-  auto entries = list_frames({*path});
+  auto entries = support::list_frames({*path});
   if (!entries) return complain(entries.error());
   Frames frames(*std::move(entries));
   if (const auto first = frames.at(0); !first) return complain(first.error());
   const auto report = measure(options, frames);
   if (!report) return complain(report.error());
   if (!options.json.empty()) {
-    const auto saved = files::write_file(options.json, bench_json(*report), chosen_durability());
+    const auto saved =
+        files::write_file(options.json, bench_json(*report), support::chosen_durability());
     if (!saved) return complain(saved.error());
   }
-  if (!options.quiet) tell("{}", bench_table(*report));
-  return ExitCode::kDone;
+  if (!options.quiet) support::tell("{}", bench_table(*report));
+  return support::ExitCode::kDone;
 }
 
 }  // namespace
 
-void add_bench_command(CLI::App& app, ExitCode& exit_code) {
+void add_bench_command(CLI::App& app, support::ExitCode& exit_code) {
   auto options = std::make_shared<BenchOptions>();
   auto* command = app.add_subcommand("bench", "Milliseconds a frame, stage by stage");
   command->add_option("FRAME", options->frame,
                       "A frame folder [the one that ships], or a folder of them");
-  add_model_options(*command, options->config);
+  support::add_model_options(*command, options->config);
   command
       ->add_option("--frames", options->frames,
                    "Calls to time, after the first; a set's frames take turns [30, of a set one a "

@@ -40,9 +40,9 @@ std::string verdict(const DeviceReport& device) {
 }
 
 void print_device(const DeviceReport& device) {
-  tell("{}\n", files::shown(device.name));
+  support::tell("{}\n", files::shown(device.name));
   const auto row = [](const char* field, const std::string& value) {
-    tell("  {:<10} {}\n", field, value);
+    support::tell("  {:<10} {}\n", field, value);
   };
   row("kind", name_of(device.kind));
   row("driver", device.driver);
@@ -52,26 +52,26 @@ void print_device(const DeviceReport& device) {
                               device.shuffles ? "" : ", without shuffles: plain kernels"));
   row("lacks", device.lacks.empty() ? "nothing" : fmt::format("{}", fmt::join(device.lacks, ", ")));
   row("self-test", verdict(device));
-  tell("\n");
+  support::tell("\n");
 }
 
 /// A line for each driver: what it did when it was asked in a process of its own.
 void print_drivers(const DeviceSurvey& survey) {
-  if (!survey.unseen.empty()) tell("Drivers are loaded unseen: {}\n", survey.unseen);
+  if (!survey.unseen.empty()) support::tell("Drivers are loaded unseen: {}\n", survey.unseen);
   for (const auto& driver : survey.drivers) {
-    tell("{}{}: {}{}\n", driver.used ? "" : "LEFT ALONE ", files::shown(driver.manifest),
-         driver.verdict, driver.remembered ? " (remembered)" : "");
+    support::tell("{}{}: {}{}\n", driver.used ? "" : "LEFT ALONE ", files::shown(driver.manifest),
+                  driver.verdict, driver.remembered ? " (remembered)" : "");
   }
-  if (!survey.unseen.empty() || !survey.drivers.empty()) tell("\n");
+  if (!survey.unseen.empty() || !survey.drivers.empty()) support::tell("\n");
 }
 
 void print_table(const DeviceSurvey& survey) {
-  tell("Vulkan loader: {}\n\n", survey.loader);
+  support::tell("Vulkan loader: {}\n\n", survey.loader);
   print_drivers(survey);
   for (const auto& device : survey.vulkan) print_device(device);
-  if (!survey.advice.empty()) tell("No Vulkan device to use.\n  {}\n\n", survey.advice);
-  tell("cpu\n  {:<10} built in, always there\n\n", "kind");
-  tell("--device auto takes: {}\n", survey.auto_choice);
+  if (!survey.advice.empty()) support::tell("No Vulkan device to use.\n  {}\n\n", survey.advice);
+  support::tell("cpu\n  {:<10} built in, always there\n\n", "kind");
+  support::tell("--device auto takes: {}\n", survey.auto_choice);
 }
 
 void print_json(const DeviceSurvey& survey) {
@@ -100,7 +100,7 @@ void print_json(const DeviceSurvey& survey) {
   const Json json = {{"loader", survey.loader}, {"drivers", drivers},
                      {"unseen", survey.unseen}, {"vulkan", devices},
                      {"advice", survey.advice}, {"auto_choice", survey.auto_choice}};
-  tell("{}\n", json.dump(2, ' ', false, Json::error_handler_t::replace));
+  support::tell("{}\n", json.dump(2, ' ', false, Json::error_handler_t::replace));
 }
 
 }  // namespace
@@ -113,7 +113,7 @@ void add_devices_command(CLI::App& app) {
   command->alias("doctor");
   command->add_flag("--json", *as_json, "Print JSON");
   command->callback([as_json] {
-    widen_lavapipe("vulkan");
+    support::widen_lavapipe("vulkan");
     const auto survey = survey_devices(/*self_test=*/true);
     if (*as_json) {
       print_json(survey);

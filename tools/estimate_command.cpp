@@ -37,7 +37,7 @@ struct EstimateOptions {
   std::vector<fs::path> frames;
   fs::path out;
   Config config;
-  RecordingArguments recordings;
+  support::RecordingArguments recordings;
   HintArguments hint_arguments;
   Hints hints;
   int curve_points = 0;  // 0: no curve.csv
@@ -50,7 +50,7 @@ struct EstimateOptions {
   RopeArguments ropes;
 };
 
-void complain(const Error& error) { tell_error("{}\n", error.message); }
+void complain(const Error& error) { support::tell_error("{}\n", error.message); }
 
 Result<void> make_out(const fs::path& out) {
   std::error_code failure;
@@ -62,7 +62,7 @@ Result<void> make_out(const fs::path& out) {
   return {};
 }
 
-Provenance provenance_of(const EstimateOptions& options, const FrameEntry& entry,
+Provenance provenance_of(const EstimateOptions& options, const support::FrameEntry& entry,
                          const Estimator& estimator) {
   return {entry.name,
           estimator.device(),
@@ -72,14 +72,15 @@ Provenance provenance_of(const EstimateOptions& options, const FrameEntry& entry
           options.config.seed};
 }
 
-std::string summary(const Estimate& estimate, const FrameEntry& entry, const fs::path& folder) {
+std::string summary(const Estimate& estimate, const support::FrameEntry& entry,
+                    const fs::path& folder) {
   return fmt::format("{}: {}, confidence {:.2f}, mask agreement {:.2f}, {:.0f} ms, {}",
                      files::shown(entry.name), name_of(estimate.source), estimate.confidence,
                      estimate.mask_agreement, estimate.timings.total_ms,
                      files::shown(folder / "overlay.png"));
 }
 
-std::string summary(const Ropes& ropes, const FrameEntry& entry, const fs::path& folder) {
+std::string summary(const Ropes& ropes, const support::FrameEntry& entry, const fs::path& folder) {
   float least = 1;
   for (const Estimate& rope : ropes.ropes) least = std::min(least, rope.confidence);
   return fmt::format("{}: {} rope{}, {} crossing{}, least confidence {:.2f}, {:.0f} ms, {}",
@@ -97,8 +98,8 @@ struct Sequence {
 };
 
 /// A frame without an estimate has its place in the video as well.
-void add_failure(Sequence& sequence, const FrameEntry& entry, const Result<FrameFolder>& loaded,
-                 const Error& error) {
+void add_failure(Sequence& sequence, const support::FrameEntry& entry,
+                 const Result<FrameFolder>& loaded, const Error& error) {
   if (!sequence.video || !loaded) return;
   const std::string words =
       fmt::format("{}: no estimate ({})", files::shown(entry.name), name_of(error.code));
@@ -106,13 +107,13 @@ void add_failure(Sequence& sequence, const FrameEntry& entry, const Result<Frame
 }
 
 /// What there is to say about one frame, or why there is no estimate on disk.
-Result<std::string> run_frame(const EstimateOptions& options, const FrameEntry& entry,
+Result<std::string> run_frame(const EstimateOptions& options, const support::FrameEntry& entry,
                               Estimator& estimator, Sequence& sequence) {
   const fs::path folder = options.out / entry.name;
   const auto provenance = provenance_of(options, entry, estimator);
-  const auto durability = chosen_durability();
+  const auto durability = support::chosen_durability();
   if (auto forgotten = forget_results(folder, durability); !forgotten) return forgotten.error();
-  const auto loaded = load_frame(entry);
+  const auto loaded = support::load_frame(entry);
   const auto fail = [&](const Error& error) -> Error {
     add_failure(sequence, entry, loaded, error);
     const auto written = write_failure(folder, error, provenance, durability);
@@ -155,7 +156,8 @@ Result<std::string> run_frame(const EstimateOptions& options, const FrameEntry& 
 }
 
 /// Another recording is another rope, or the same at another time.
-void begin_frame(const EstimateOptions& options, const FrameEntry& entry, Sequence& sequence) {
+void begin_frame(const EstimateOptions& options, const support::FrameEntry& entry,
+                 Sequence& sequence) {
   const fs::path recording = entry.read ? entry.folder : fs::path();
   if (options.stream && recording != sequence.recording) {
     sequence.hints.previous = options.hints.previous;
@@ -163,20 +165,21 @@ void begin_frame(const EstimateOptions& options, const FrameEntry& entry, Sequen
   sequence.recording = recording;
 }
 
-ExitCode run_frames(const EstimateOptions& options, const std::vector<FrameEntry>& frames,
-                    Estimator& estimator, Sequence& sequence) {
-  ProgressBar progress("estimate", static_cast<int>(frames.size()), options.quiet);
-  auto exit_code = ExitCode::kDone;
+support::ExitCode run_frames(const EstimateOptions& options,
+                             const std::vector<support::FrameEntry>& frames, Estimator& estimator,
+                             Sequence& sequence) {
+  support::ProgressBar progress("estimate", static_cast<int>(frames.size()), options.quiet);
+  auto exit_code = support::ExitCode::kDone;
   for (const auto& entry : frames) {
     begin_frame(options, entry, sequence);
     const auto outcome = run_frame(options, entry, estimator, sequence);
     progress.clear();
     if (!outcome) {
-      exit_code = ExitCode::kFailed;
-      tell_error("{}: no estimate ({}): {}\n", files::shown(entry.name),
-                 name_of(outcome.error().code), outcome.error().message);
+      exit_code = support::ExitCode::kFailed;
+      support::tell_error("{}: no estimate ({}): {}\n", files::shown(entry.name),
+                          name_of(outcome.error().code), outcome.error().message);
     } else if (!options.quiet) {
-      tell("{}\n", *outcome);
+      support::tell("{}\n", *outcome);
       std::fflush(stdout);
     }
     progress.advance();
@@ -184,41 +187,41 @@ ExitCode run_frames(const EstimateOptions& options, const std::vector<FrameEntry
   if (!sequence.video) return exit_code;
   if (const auto written = sequence.video->finish(); !written) {
     complain(written.error());
-    return ExitCode::kFailed;
+    return support::ExitCode::kFailed;
   }
-  if (!options.quiet) tell("{}\n", files::shown(options.video));
+  if (!options.quiet) support::tell("{}\n", files::shown(options.video));
   return exit_code;
 }
 
-ExitCode run(EstimateOptions& options) {
+support::ExitCode run(EstimateOptions& options) {
   const auto hints = hints_of(options.hint_arguments);
   if (!hints) {
     complain(hints.error());
-    return ExitCode::kUsage;
+    return support::ExitCode::kUsage;
   }
   options.hints = *hints;
   put_ropes(options.ropes, options.config);
-  const auto frames =
-      list_frames(options.frames, recording_opener(options.recordings, options.quiet));
+  const auto frames = support::list_frames(
+      options.frames, support::recording_opener(options.recordings, options.quiet));
   if (!frames) {
     complain(frames.error());
-    return ExitCode::kUsage;
+    return support::ExitCode::kUsage;
   }
   if (const auto made = make_out(options.out); !made) {
     complain(made.error());
-    return ExitCode::kUsage;
+    return support::ExitCode::kUsage;
   }
   auto estimator = Estimator::create(options.config);
   if (!estimator) {
     complain(estimator.error());
-    return ExitCode::kUsage;
+    return support::ExitCode::kUsage;
   }
   Sequence sequence{.hints = options.hints};
   if (!options.video.empty()) {
     auto video = VideoFile::open(options.video, options.frames_per_s);
     if (!video) {
       complain(video.error());
-      return ExitCode::kUsage;
+      return support::ExitCode::kUsage;
     }
     sequence.video.emplace(*std::move(video));
   }
@@ -235,7 +238,7 @@ CLI::Validator ends_in_mp4() {
 
 }  // namespace
 
-void add_estimate_command(CLI::App& app, ExitCode& exit_code) {
+void add_estimate_command(CLI::App& app, support::ExitCode& exit_code) {
   auto options = std::make_shared<EstimateOptions>();
   auto* command = app.add_subcommand("estimate", "Frames in, centerlines out");
   command
@@ -245,7 +248,7 @@ void add_estimate_command(CLI::App& app, ExitCode& exit_code) {
   command->add_option("--out", options->out, "Results go to DIR/<frame name>/")
       ->required()
       ->type_name("DIR");
-  add_model_options(*command, options->config);
+  support::add_model_options(*command, options->config);
   auto* ropes = add_rope_options(*command, options->ropes);
   add_hint_options(*command, options->hint_arguments);
   command
@@ -275,11 +278,11 @@ void add_estimate_command(CLI::App& app, ExitCode& exit_code) {
       ->add_option("--overlay", options->field_overlay,
                    "What overlay.png shows below the curve: plain, the image alone, or field, what "
                    "the strand field says of it")
-      ->transform(choice<bool>({{"plain", false}, {"field", true}}))
+      ->transform(support::choice<bool>({{"plain", false}, {"field", true}}))
       ->excludes(ropes)
       ->type_name("WHAT");
   command->add_flag("--quiet", options->quiet, "Print errors only");
-  add_recording_options(*command, options->recordings);
+  support::add_recording_options(*command, options->recordings);
   command->callback([options, &exit_code] { exit_code = run(*options); });
 }
 

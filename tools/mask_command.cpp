@@ -73,9 +73,9 @@ Result<Mask> made(const Frame& frame, const MaskOptions& options) {
 }
 
 /// A file stands for itself, anything else for the frames that it is or holds.
-Result<std::vector<FrameEntry>> inputs_of(const MaskOptions& options) {
+Result<std::vector<support::FrameEntry>> inputs_of(const MaskOptions& options) {
   std::vector<fs::path> folders;
-  std::vector<FrameEntry> entries;
+  std::vector<support::FrameEntry> entries;
   for (const auto& input : options.inputs) {
     std::error_code failure;
     if (!fs::is_regular_file(input, failure)) {
@@ -90,7 +90,7 @@ Result<std::vector<FrameEntry>> inputs_of(const MaskOptions& options) {
     }
     entries.push_back({input, input.stem().string(), [input] { return load_picture(input); }});
   }
-  const auto frames = list_frames(folders);
+  const auto frames = support::list_frames(folders);
   if (!frames) return frames.error();
   entries.insert(entries.end(), frames->begin(), frames->end());
   std::set<std::string> names;
@@ -112,7 +112,7 @@ Result<void> write(const fs::path& folder, const Frame& frame) {
   if (!mask) return mask.error();
   const auto overlay = mat::encode_png(draw_mask_overlay(frame));
   if (!overlay) return overlay.error();
-  files::StagedFiles staged(chosen_durability());
+  files::StagedFiles staged(support::chosen_durability());
   if (auto done = staged.add(folder / kOverlayName, *overlay); !done) return done;
   if (auto done = staged.add(folder / kMaskName, *mask); !done) return done;
   return staged.commit();
@@ -136,7 +136,7 @@ Result<void> check_place(const fs::path& folder, const MaskOptions& options) {
 }
 
 /// What there is to say about one input, or why it has no mask.
-Result<std::string> run_one(const FrameEntry& entry, const MaskOptions& options) {
+Result<std::string> run_one(const support::FrameEntry& entry, const MaskOptions& options) {
   auto loaded = entry.read ? entry.read() : load_frame_folder_without_mask(entry.folder);
   if (!loaded) return loaded.error();
   auto mask = made(loaded->frame(), options);
@@ -174,30 +174,30 @@ void resolve(MaskOptions& options) {
   options.band.cleaning = options.above.cleaning = options.growth.cleaning = kRaw;
 }
 
-ExitCode run(MaskOptions& options) {
+support::ExitCode run(MaskOptions& options) {
   resolve(options);
   if (options.color.empty() && !options.table && options.clicks.empty()) {
-    tell_error(
+    support::tell_error(
         "flowdlo mask: expected a way to the mask, got none; give --color, --table or "
         "--click\n");
-    return ExitCode::kUsage;
+    return support::ExitCode::kUsage;
   }
   const auto entries = inputs_of(options);
   if (!entries) {
-    tell_error("{}\n", entries.error().message);
-    return ExitCode::kUsage;
+    support::tell_error("{}\n", entries.error().message);
+    return support::ExitCode::kUsage;
   }
-  ProgressBar progress("mask", static_cast<int>(entries->size()), options.quiet);
-  auto exit_code = ExitCode::kDone;
+  support::ProgressBar progress("mask", static_cast<int>(entries->size()), options.quiet);
+  auto exit_code = support::ExitCode::kDone;
   for (const auto& entry : *entries) {
     const auto outcome = run_one(entry, options);
     progress.clear();
     if (!outcome) {
-      exit_code = ExitCode::kFailed;
-      tell_error("{}: no mask ({}): {}\n", files::shown(entry.name), name_of(outcome.error().code),
-                 outcome.error().message);
+      exit_code = support::ExitCode::kFailed;
+      support::tell_error("{}: no mask ({}): {}\n", files::shown(entry.name),
+                          name_of(outcome.error().code), outcome.error().message);
     } else if (!options.quiet) {
-      tell("{}\n", *outcome);
+      support::tell("{}\n", *outcome);
       std::fflush(stdout);
     }
     progress.advance();
@@ -253,7 +253,7 @@ void add_ways(CLI::App& command, MaskOptions& options) {
 
 }  // namespace
 
-void add_mask_command(CLI::App& app, ExitCode& exit_code) {
+void add_mask_command(CLI::App& app, support::ExitCode& exit_code) {
   auto options = std::make_shared<MaskOptions>();
   auto* command = app.add_subcommand(
       "mask",

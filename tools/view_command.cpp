@@ -31,7 +31,7 @@ namespace {
 struct ViewOptions {
   std::vector<std::filesystem::path> frames;
   Config config;
-  RecordingArguments recordings;
+  support::RecordingArguments recordings;
   RopeArguments ropes;
   int port = 0;
 };
@@ -81,9 +81,9 @@ Result<view::Seen> seen_by(Estimator& estimator, const Frame& frame, bool severa
   return seen;
 }
 
-view::ShownFrame show(const FrameEntry& entry, Estimator& estimator, bool several) {
+view::ShownFrame show(const support::FrameEntry& entry, Estimator& estimator, bool several) {
   const std::string name = files::shown(entry.name);
-  const auto loaded = load_frame(entry);
+  const auto loaded = support::load_frame(entry);
   if (!loaded) return view::shown_failure(name, loaded.error());
   const auto seen = seen_by(estimator, loaded->frame(), several);
   auto shown = seen ? view::shown_frame(name, loaded->frame(), *seen)
@@ -91,14 +91,15 @@ view::ShownFrame show(const FrameEntry& entry, Estimator& estimator, bool severa
   return shown ? *std::move(shown) : view::shown_failure(name, shown.error());
 }
 
-ExitCode refused(const Error& error) {
-  tell_error("{}\n", error.message);
-  return ExitCode::kUsage;
+support::ExitCode refused(const Error& error) {
+  support::tell_error("{}\n", error.message);
+  return support::ExitCode::kUsage;
 }
 
-ExitCode run(ViewOptions& options) {
+support::ExitCode run(ViewOptions& options) {
   put_ropes(options.ropes, options.config);
-  const auto frames = list_frames(options.frames, recording_opener(options.recordings, false));
+  const auto frames =
+      support::list_frames(options.frames, support::recording_opener(options.recordings, false));
   if (!frames) return refused(frames.error());
   auto estimator = Estimator::create(options.config);
   if (!estimator) return refused(estimator.error());
@@ -112,20 +113,20 @@ ExitCode run(ViewOptions& options) {
     return show((*frames)[frame], *estimator, options.ropes.several);
   });
   const EndSignal end;
-  tell("http://{}/{}/\n", server->authority(), secret);
+  support::tell("http://{}/{}/\n", server->authority(), secret);
   std::fflush(stdout);
-  tell_error("{} frame{}; open the link in a browser of this computer, Ctrl+C ends\n",
-             frames->size(), frames->size() == 1 ? "" : "s");
+  support::tell_error("{} frame{}; open the link in a browser of this computer, Ctrl+C ends\n",
+                      frames->size(), frames->size() == 1 ? "" : "s");
   const auto served = server->serve(
       [&](const view::HttpRequest& request) { return pages.response(request); }, end.readable());
-  if (served) return ExitCode::kDone;
-  tell_error("{}\n", served.error().message);
-  return ExitCode::kFailed;
+  if (served) return support::ExitCode::kDone;
+  support::tell_error("{}\n", served.error().message);
+  return support::ExitCode::kFailed;
 }
 
 }  // namespace
 
-void add_view_command(CLI::App& app, ExitCode& exit_code) {
+void add_view_command(CLI::App& app, support::ExitCode& exit_code) {
   auto options = std::make_shared<ViewOptions>();
   auto* command = app.add_subcommand(
       "view",
@@ -141,9 +142,9 @@ void add_view_command(CLI::App& app, ExitCode& exit_code) {
       ->capture_default_str()
       ->check(CLI::Range(0, 65535))
       ->type_name("N");
-  add_model_options(*command, options->config);
+  support::add_model_options(*command, options->config);
   add_rope_options(*command, options->ropes);
-  add_recording_options(*command, options->recordings);
+  support::add_recording_options(*command, options->recordings);
   command->callback([options, &exit_code] { exit_code = run(*options); });
 }
 

@@ -8,6 +8,6 @@
 namespace flowdlo::tools {
 
 /// Adds the subcommand to `app`. When it runs, it sets `exit_code`.
-void add_view_command(CLI::App& app, ExitCode& exit_code);
+void add_view_command(CLI::App& app, support::ExitCode& exit_code);
 
 }  // namespace flowdlo::tools

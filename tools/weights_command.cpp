@@ -21,32 +21,32 @@ struct Files {
   int fast_draws = 0;
 };
 
-ExitCode report(const Error& error) {
-  tell_error("{}\n", error.message);
-  return ExitCode::kFailed;
+support::ExitCode report(const Error& error) {
+  support::tell_error("{}\n", error.message);
+  return support::ExitCode::kFailed;
 }
 
-ExitCode print_info(const std::filesystem::path& file) {
+support::ExitCode print_info(const std::filesystem::path& file) {
   const auto info = inspect_weights(file);
   if (!info) return report(info.error());
-  for (const auto& [field, value] : info->metadata) tell("{:<24} {}\n", field, value);
-  tell("{:<24} {}\n{:<24} {}\n\n", "parameters", info->parameters, "sha256", info->sha256);
+  for (const auto& [field, value] : info->metadata) support::tell("{:<24} {}\n", field, value);
+  support::tell("{:<24} {}\n{:<24} {}\n\n", "parameters", info->parameters, "sha256", info->sha256);
   for (const auto& tensor : info->tensors) {
-    tell("{:<32} {:<4} [{}]\n", files::shown(tensor.name), tensor.dtype,
-         fmt::join(tensor.shape, ", "));
+    support::tell("{:<32} {:<4} [{}]\n", files::shown(tensor.name), tensor.dtype,
+                  fmt::join(tensor.shape, ", "));
   }
-  return ExitCode::kDone;
+  return support::ExitCode::kDone;
 }
 
-ExitCode outcome(const Result<void>& done, const Files& paths) {
+support::ExitCode outcome(const Result<void>& done, const Files& paths) {
   if (!done) return report(done.error());
-  tell("{} -> {}\n", files::shown(paths.input), files::shown(paths.output));
-  return ExitCode::kDone;
+  support::tell("{} -> {}\n", files::shown(paths.input), files::shown(paths.output));
+  return support::ExitCode::kDone;
 }
 
 }  // namespace
 
-void add_weights_command(CLI::App& app, ExitCode& exit_code) {
+void add_weights_command(CLI::App& app, support::ExitCode& exit_code) {
   auto files = std::make_shared<Files>();
   auto* command = app.add_subcommand("weights", "Look into weights files and convert them");
   command->require_subcommand(1);

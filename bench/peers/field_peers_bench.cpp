@@ -171,7 +171,7 @@ int main(int argc, char** argv) {
   if (!options.device.empty()) {
     // Mesa's CPU driver reads both once a process.
     ::setenv("LP_NUM_THREADS", std::to_string(options.threads).c_str(), 0);
-    flowdlo::tools::widen_lavapipe(options.device);
+    flowdlo::support::widen_lavapipe(options.device);
   }
   return flowdlo::peers::run(options);
 }

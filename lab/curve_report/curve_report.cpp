@@ -1,15 +1,17 @@
-// flowdlo_curve_report: how far the true centerline of drawn scenes is from the chords between its
-// 64 nodes, and from the smooth curve through them.
+// flowdlo-lab curve-report: how far the true centerline of drawn scenes is from the chords between
+// its 64 nodes, and from the smooth curve through them.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
 #include <limits>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "command/report_commands.hpp"
 #include "flowdlo/estimate.hpp"
 #include "geometry/camera.hpp"
 #include "scene/scene.hpp"
@@ -97,17 +99,23 @@ int report(const Options& options) {
 
 }  // namespace
 
-int main(int count, char** values) {
-  Options options;
-  CLI::App app{"The true centerline of drawn scenes beside 64 chords and beside Estimate::curve"};
-  app.add_option("--scenes", options.scenes, "Of each kind")
+namespace flowdlo::lab {
+
+void add_curve_report(CLI::App& program, support::ExitCode& exit_code) {
+  auto options = std::make_shared<Options>();
+  auto& app = *program.add_subcommand(
+      "curve-report",
+      "The true centerline of drawn scenes beside 64 chords and beside Estimate::curve");
+  app.add_option("--scenes", options->scenes, "Of each kind")
       ->capture_default_str()
       ->check(CLI::Range(1, 1000000));
-  app.add_option("--first", options.first, "Seed of the first scene of each kind")
+  app.add_option("--first", options->first, "Seed of the first scene of each kind")
       ->capture_default_str();
-  app.add_option("--points", options.points, "Of the curve")
+  app.add_option("--points", options->points, "Of the curve")
       ->capture_default_str()
       ->check(CLI::Range(2, flowdlo::kMostCurvePoints));
-  CLI11_PARSE(app, count, values);
-  return report(options);
+  app.callback(
+      [options, &exit_code] { exit_code = static_cast<support::ExitCode>(::report(*options)); });
 }
+
+}  // namespace flowdlo::lab

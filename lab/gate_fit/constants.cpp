@@ -53,7 +53,8 @@ std::string network(const char* name, const Network& weights) {
 std::string constants_text(const gate::GateWeights& weights, const std::string& name,
                            const std::string& origin) {
   std::string text =
-      "// Written by flowdlo_gate_fit; do not edit. Each list is in the order of its features.\n";
+      "// Written by flowdlo-lab gate-fit; do not edit. Each list is in the order of its "
+      "features.\n";
   text += fmt::format("// {}\n", origin);
   text +=
       "#include \"gate/calibrated.hpp\"\n\nnamespace flowdlo::gate {\nnamespace {\n\n"

@@ -1,7 +1,6 @@
-// flowdlo_gate_fit fit: fits the calibrated gate to a model on synthetic training frames and writes
-// engine/gate/fitted_to_mask.cpp, or with a strand field fitted_to_field.cpp. flowdlo_gate_fit
-// report: what the gate is worth on frames that it
-// was not fitted on.
+// flowdlo-lab gate-fit fit: fits the calibrated gate to a model on synthetic training frames and
+// writes engine/gate/fitted_to_mask.cpp, or with a strand field fitted_to_field.cpp. flowdlo-lab
+// gate-fit report: what the gate is worth on frames that it was not fitted on.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -13,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "command/report_commands.hpp"
 #include "estimator/device_choice.hpp"
 #include "field/network.hpp"
 #include "flowdlo/weights.hpp"
@@ -142,8 +142,8 @@ Measured measured_one(const Options& options, const Batch& batch, Model& model,
 Result<Samples> measured(const Options& options, const Batch& batch, int done) {
   auto model = open_model(options, batch.origin.draws > 0);
   if (!model) return model.error();
-  flowdlo::tools::ProgressBar bar(batch.origin.draws > 0 ? "scenes" : "scenes without model",
-                                  batch.scenes - done, options.quiet);
+  flowdlo::support::ProgressBar bar(batch.origin.draws > 0 ? "scenes" : "scenes without model",
+                                    batch.scenes - done, options.quiet);
   std::vector<Measured> all(static_cast<std::size_t>(batch.scenes - done), Measured(std::nullopt));
   std::atomic<int> next = done;
   std::mutex drawing;
@@ -321,30 +321,39 @@ void add_options(CLI::App& command, Options& options) {
 
 }  // namespace
 
-int main(int count, char** values) {
-  Options fitting;
-  Options reporting;
-  reporting.part = "validation";
-  reporting.first = 0;
-  reporting.scenes = 300;
-  CLI::App app{"The calibrated gate on synthetic frames with truth"};
+namespace flowdlo::lab {
+
+void add_gate_fit(CLI::App& program, support::ExitCode& exit_code) {
+  auto& app =
+      *program.add_subcommand("gate-fit", "The calibrated gate on synthetic frames with truth");
   app.require_subcommand(1);
+  auto fitting = std::make_shared<Options>();
   auto* fit_command = app.add_subcommand("fit", "Fit to a model on training frames");
-  add_options(*fit_command, fitting);
+  add_options(*fit_command, *fitting);
   fit_command
-      ->add_option("--more", fitting.more,
+      ->add_option("--more", fitting->more,
                    "Scenes beyond those, for what does not depend on the model; quick")
       ->check(CLI::Range(0, 1000000))
       ->capture_default_str();
-  fit_command->add_option("--constants", fitting.constants, "Write them to FILE, not to stdout")
+  fit_command->add_option("--constants", fitting->constants, "Write them to FILE, not to stdout")
       ->type_name("FILE");
-  fit_command->add_flag("--keep-choice", fitting.keep_choice,
+  fit_command->add_flag("--keep-choice", fitting->keep_choice,
                         "Fit confidence and sigma_m alone, to what the compiled constants choose");
+  fit_command->callback(
+      [fitting, &exit_code] { exit_code = static_cast<support::ExitCode>(::fit(*fitting)); });
+
+  auto reporting = std::make_shared<Options>();
+  reporting->part = "validation";
+  reporting->first = 0;
+  reporting->scenes = 300;
   auto* report_command = app.add_subcommand("report", "What the compiled constants are worth");
-  add_options(*report_command, reporting);
-  report_command->add_option("--part", reporting.part, "training or validation")
+  add_options(*report_command, *reporting);
+  report_command->add_option("--part", reporting->part, "training or validation")
       ->check(CLI::IsMember({"training", "validation"}))
       ->capture_default_str();
-  CLI11_PARSE(app, count, values);
-  return fit_command->parsed() ? fit(fitting) : report(reporting);
+  report_command->callback([reporting, &exit_code] {
+    exit_code = static_cast<support::ExitCode>(::report(*reporting));
+  });
 }
+
+}  // namespace flowdlo::lab

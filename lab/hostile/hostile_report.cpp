@@ -1,5 +1,5 @@
-// flowdlo_hostile_report: what each mask of the hostile corpus takes of processor and memory, in
-// the library and in the command, as one Markdown table.
+// flowdlo-lab hostile-report: what each mask of the hostile corpus takes of processor and memory,
+// in the library and in the command, as one Markdown table.
 #include <fmt/format.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -12,9 +12,11 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <memory>
 #include <string>
 #include <vector>
 
+#include "command/report_commands.hpp"
 #include "flowdlo/frame_folder.hpp"
 #include "hostile/cost.hpp"
 #include "hostile/hostile_frame.hpp"
@@ -144,13 +146,18 @@ std::string command_cells(const Options& options, const HostileMask& mask) {
 
 /// Each mask in a process of its own, so that no peak is another one's, and one that is stopped
 /// stops nothing else.
-int report(const Options& options, const char* program, const std::vector<HostileMask>& masks) {
+int report(const Options& options, const std::vector<HostileMask>& masks) {
   fmt::print("| mask | library, CPU s | times an ordinary frame | library, peak MB | verdict |{}\n",
              options.command.empty() ? "" : " command, CPU s | command, peak MB |");
   fmt::print("|---|---|---|---|---|{}\n", options.command.empty() ? "" : "---|---|");
   for (const HostileMask& mask : masks) {
-    std::vector<std::string> line{program,     "--here",   "--only",
-                                  mask.name(), "--rounds", std::to_string(options.rounds)};
+    std::vector<std::string> line{"/proc/self/exe",
+                                  "hostile-report",
+                                  "--here",
+                                  "--only",
+                                  mask.name(),
+                                  "--rounds",
+                                  std::to_string(options.rounds)};
     if (options.ropes) line.emplace_back("--ropes");
     add_model(options, line);
     Run took = run(std::move(line), options.limit_s);
@@ -165,32 +172,41 @@ int report(const Options& options, const char* program, const std::vector<Hostil
   return 0;
 }
 
-}  // namespace
-
-int main(int count, char** values) {
-  Options options;
-  CLI::App app{"What each mask of the hostile corpus takes of processor and memory"};
-  app.add_option("--only", options.only, "Masks whose name holds this");
-  app.add_flag("--here", options.here, "Measure in this process, without the table's head");
-  app.add_flag("--ropes", options.ropes, "Any number of ropes, in the library");
-  app.add_option("--weights", options.weights)->check(CLI::ExistingFile);
-  app.add_option_function<std::string>(
-         "--quality", [&](const std::string& quality) { options.fast = quality == "fast"; },
-         "As flowdlo has it")
-      ->check(CLI::IsMember({"full", "fast"}));
-  app.add_option("--command", options.command, "Measure this flowdlo as well")
-      ->check(CLI::ExistingFile);
-  app.add_option("--scratch", options.scratch, "Frames are written below it");
-  app.add_option("--rounds", options.rounds, "The least of so many counts")
-      ->check(CLI::Range(1, 100))
-      ->capture_default_str();
-  app.add_option("--limit", options.limit_s, "CPU seconds after which a run is stopped")
-      ->check(CLI::Range(1, 100000))
-      ->capture_default_str();
-  CLI11_PARSE(app, count, values);
+int run(const Options& options) {
   auto masks = flowdlo::lab::hostile_corpus();
   std::erase_if(masks, [&](const HostileMask& mask) {
     return mask.name().find(options.only) == std::string::npos;
   });
-  return options.here ? measure(options, masks) : report(options, values[0], masks);
+  return options.here ? measure(options, masks) : report(options, masks);
 }
+
+}  // namespace
+
+namespace flowdlo::lab {
+
+void add_hostile_report(CLI::App& program, support::ExitCode& exit_code) {
+  auto options = std::make_shared<Options>();
+  auto& app = *program.add_subcommand(
+      "hostile-report", "What each mask of the hostile corpus takes of processor and memory");
+  app.add_option("--only", options->only, "Masks whose name holds this");
+  app.add_flag("--here", options->here, "Measure in this process, without the table's head");
+  app.add_flag("--ropes", options->ropes, "Any number of ropes, in the library");
+  app.add_option("--weights", options->weights)->check(CLI::ExistingFile);
+  app.add_option_function<std::string>(
+         "--quality", [options](const std::string& quality) { options->fast = quality == "fast"; },
+         "As flowdlo has it")
+      ->check(CLI::IsMember({"full", "fast"}));
+  app.add_option("--command", options->command, "Measure this flowdlo as well")
+      ->check(CLI::ExistingFile);
+  app.add_option("--scratch", options->scratch, "Frames are written below it");
+  app.add_option("--rounds", options->rounds, "The least of so many counts")
+      ->check(CLI::Range(1, 100))
+      ->capture_default_str();
+  app.add_option("--limit", options->limit_s, "CPU seconds after which a run is stopped")
+      ->check(CLI::Range(1, 100000))
+      ->capture_default_str();
+  app.callback(
+      [options, &exit_code] { exit_code = static_cast<support::ExitCode>(::run(*options)); });
+}
+
+}  // namespace flowdlo::lab

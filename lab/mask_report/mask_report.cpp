@@ -1,13 +1,15 @@
-// flowdlo_mask_report: what estimates are worth where the mask is rough, in one table: rendered
+// flowdlo-lab mask-report: what estimates are worth where the mask is rough, in one table: rendered
 // scenes, each with its mask as the synthetic segmenter gives it and then made worse.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
+#include <memory>
 #include <string>
 #include <vector>
 
+#include "command/report_commands.hpp"
 #include "eval/metrics.hpp"
 #include "flowdlo/estimator.hpp"
 #include "geometry/quantile.hpp"
@@ -103,18 +105,22 @@ int run(const Options& options) {
 
 }  // namespace
 
-int main(int count, char** values) {
-  Options options;
-  CLI::App app{"How rough a mask may be"};
-  app.add_option("--weights", options.weights, "Weights of the model, .fdw [those that ship]")
+namespace flowdlo::lab {
+
+void add_mask_report(CLI::App& program, support::ExitCode& exit_code) {
+  auto options = std::make_shared<Options>();
+  auto& app = *program.add_subcommand("mask-report", "How rough a mask may be");
+  app.add_option("--weights", options->weights, "Weights of the model, .fdw [those that ship]")
       ->check(CLI::ExistingFile);
-  app.add_option("--part", options.part, "training or validation, of the wide split")
+  app.add_option("--part", options->part, "training or validation, of the wide split")
       ->check(CLI::IsMember({"training", "validation"}))
       ->capture_default_str();
-  app.add_option("--seed", options.seed, "Of the scenes")->capture_default_str();
-  app.add_option("--frames", options.frames, "Scenes")
+  app.add_option("--seed", options->seed, "Of the scenes")->capture_default_str();
+  app.add_option("--frames", options->frames, "Scenes")
       ->check(CLI::Range(1, 100000))
       ->capture_default_str();
-  CLI11_PARSE(app, count, values);
-  return run(options);
+  app.callback(
+      [options, &exit_code] { exit_code = static_cast<support::ExitCode>(::run(*options)); });
 }
+
+}  // namespace flowdlo::lab

@@ -1,5 +1,5 @@
-// flowdlo_one_rope_report: what `confidence` says of masks that are no rope, two ropes or part of
-// one, and of ordinary frames, in one table. Training scenes unless told otherwise.
+// flowdlo-lab one-rope-report: what `confidence` says of masks that are no rope, two ropes or part
+// of one, and of ordinary frames, in one table. Training scenes unless told otherwise.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -8,9 +8,11 @@
 #include <cstdio>
 #include <functional>
 #include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
+#include "command/report_commands.hpp"
 #include "eval/metrics.hpp"
 #include "flowdlo/estimator.hpp"
 #include "one_rope/odd_mask.hpp"
@@ -224,33 +226,7 @@ void add_all(const Options& options, Report& report) {
   if (options.pairs > 0) add_odd_masks(options, report);
 }
 
-}  // namespace
-
-int main(int count, char** values) {
-  Options options;
-  CLI::App app{"Confidence on masks that are not one rope"};
-  app.add_option("--weights", options.weights, "Weights of the model, .fdw")
-      ->required()
-      ->check(CLI::ExistingFile);
-  app.add_option("--drawn", options.drawn, "Ordinary drawn scenes of each kind")
-      ->capture_default_str();
-  app.add_option("--wide", options.wide, "Ordinary frames of the wide split")
-      ->capture_default_str();
-  app.add_option("--thesis", options.thesis, "Ordinary frames of the thesis split")
-      ->capture_default_str();
-  app.add_option("--pairs", options.pairs, "Two ropes: of each arrangement, drawn and rendered")
-      ->capture_default_str();
-  app.add_option("--parts", options.parts, "Frames to cut, drawn and rendered")
-      ->capture_default_str();
-  app.add_option("--first", options.first, "Seed or index of the first")->capture_default_str();
-  app.add_option("--part", options.part, "training or validation")
-      ->check(CLI::IsMember({"training", "validation"}))
-      ->capture_default_str();
-  app.add_flag("--color", options.color, "With colour in rendered frames; slow");
-  app.add_option("--sizes", options.sizes, "Widths of masks that are no rope")
-      ->capture_default_str();
-  app.add_option("--csv", options.csv, "Everything measured, a line a frame")->type_name("FILE");
-  CLI11_PARSE(app, count, values);
+int run(const Options& options) {
   auto estimator = flowdlo::Estimator::create({.weights = options.weights,
                                                .device = "cpu",
                                                .quality = flowdlo::Quality::kFast,
@@ -266,3 +242,38 @@ int main(int count, char** values) {
   if (csv != nullptr) std::fclose(csv);
   return 0;
 }
+
+}  // namespace
+
+namespace flowdlo::lab {
+
+void add_one_rope_report(CLI::App& program, support::ExitCode& exit_code) {
+  auto options = std::make_shared<Options>();
+  auto& app =
+      *program.add_subcommand("one-rope-report", "Confidence on masks that are not one rope");
+  app.add_option("--weights", options->weights, "Weights of the model, .fdw")
+      ->required()
+      ->check(CLI::ExistingFile);
+  app.add_option("--drawn", options->drawn, "Ordinary drawn scenes of each kind")
+      ->capture_default_str();
+  app.add_option("--wide", options->wide, "Ordinary frames of the wide split")
+      ->capture_default_str();
+  app.add_option("--thesis", options->thesis, "Ordinary frames of the thesis split")
+      ->capture_default_str();
+  app.add_option("--pairs", options->pairs, "Two ropes: of each arrangement, drawn and rendered")
+      ->capture_default_str();
+  app.add_option("--parts", options->parts, "Frames to cut, drawn and rendered")
+      ->capture_default_str();
+  app.add_option("--first", options->first, "Seed or index of the first")->capture_default_str();
+  app.add_option("--part", options->part, "training or validation")
+      ->check(CLI::IsMember({"training", "validation"}))
+      ->capture_default_str();
+  app.add_flag("--color", options->color, "With colour in rendered frames; slow");
+  app.add_option("--sizes", options->sizes, "Widths of masks that are no rope")
+      ->capture_default_str();
+  app.add_option("--csv", options->csv, "Everything measured, a line a frame")->type_name("FILE");
+  app.callback(
+      [options, &exit_code] { exit_code = static_cast<support::ExitCode>(::run(*options)); });
+}
+
+}  // namespace flowdlo::lab

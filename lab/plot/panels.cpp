@@ -5,11 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
-#include "files/whole_file.hpp"
+#include "mat/mat_file.hpp"
 
 namespace flowdlo::plot {
 namespace {
@@ -110,11 +109,7 @@ Result<void> save_panels(std::span<const Panel> panels, const std::filesystem::p
     draw_panel(page, panels[static_cast<std::size_t>(i)],
                {(i % 2) * kWidth, (i / 2) * kHeight, kWidth, kHeight});
   }
-  std::vector<std::uint8_t> png;
-  if (!cv::imencode(".png", page, png)) {
-    return Error{ErrorCode::kInternal, file.string() + ": the plot cannot be encoded"};
-  }
-  return files::write_file(file, {png});
+  return mat::save_png(file, page);
 }
 
 }  // namespace flowdlo::plot

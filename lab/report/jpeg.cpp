@@ -10,7 +10,7 @@ namespace {
 
 struct Encoder {
   jpeg_compress_struct state{};
-  tools::JpegErrorJump handler{};
+  support::JpegErrorJump handler{};
   unsigned char* bytes = nullptr;
   unsigned long size = 0;  // NOLINT: libjpeg's type
 

@@ -17,8 +17,8 @@
 #include "field/axes.hpp"
 #include "field/strand_field.hpp"
 #include "geometry/polyline.hpp"
-#include "prior_report/traversal.hpp"
 #include "scene/setting.hpp"
+#include "scene_report/traversal.hpp"
 
 namespace flowdlo::lab {
 namespace {

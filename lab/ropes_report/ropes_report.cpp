@@ -1,6 +1,6 @@
-// flowdlo_ropes_report: drawn or rendered scenes of several ropes, told apart and lifted, against
-// their truth: one Markdown table by kind and one by number; --overlays draws the scenes that are
-// not right.
+// flowdlo-lab ropes-report: drawn or rendered scenes of several ropes, told apart and lifted,
+// against their truth: one Markdown table by kind and one by number; --overlays draws the scenes
+// that are not right.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
@@ -9,15 +9,16 @@
 #include <cstdio>
 #include <map>
 #include <memory>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "command/report_commands.hpp"
 #include "estimator/device_choice.hpp"
 #include "field/network.hpp"
+#include "mat/mat_file.hpp"
 #include "ropes_report/rendered_ropes.hpp"
 #include "ropes_report/ropes_outcome.hpp"
 #include "scene/setting.hpp"
@@ -234,7 +235,7 @@ bool draw(const std::string& file, const RopesScene& scene, const RopesOutcome& 
     cv::circle(picture, points.front(), 5 * 16, color, 2, cv::LINE_AA, 4);
     cv::circle(picture, points.back(), 5 * 16, color, 2, cv::LINE_AA, 4);
   }
-  return cv::imwrite(file, picture);
+  return flowdlo::mat::save_png(file, picture).has_value();
 }
 
 using flowdlo::Result;
@@ -374,21 +375,24 @@ int run(const Options& options) {
 
 }  // namespace
 
-int main(int count, char** values) {
-  Options options;
-  CLI::App app{"Several ropes in one frame, on drawn scenes, against their truth"};
-  app.add_option("--scenes", options.scenes, "Drawn ones, of each kind and number")
+namespace flowdlo::lab {
+
+void add_ropes_report(CLI::App& program, support::ExitCode& exit_code) {
+  auto options = std::make_shared<Options>();
+  auto& app = *program.add_subcommand(
+      "ropes-report", "Several ropes in one frame, on drawn scenes, against their truth");
+  app.add_option("--scenes", options->scenes, "Drawn ones, of each kind and number")
       ->capture_default_str()
       ->check(CLI::Range(0, 1000000));
-  app.add_option("--first", options.first, "Seed of the first drawn scene of each")
+  app.add_option("--first", options->first, "Seed of the first drawn scene of each")
       ->capture_default_str();
-  app.add_option("--least", options.least, "Fewest ropes of a scene")
+  app.add_option("--least", options->least, "Fewest ropes of a scene")
       ->capture_default_str()
       ->check(CLI::Range(2, 9));
-  app.add_option("--most", options.most, "Most ropes of a scene")
+  app.add_option("--most", options->most, "Most ropes of a scene")
       ->capture_default_str()
       ->check(CLI::Range(2, 9));
-  app.add_option("--kind", options.kind, "Of this kind, or rendered scenario, only")
+  app.add_option("--kind", options->kind, "Of this kind, or rendered scenario, only")
       ->check(CLI::Validator(
           [](const std::string& name) {
             const auto rendered = synth::scenarios(synth::Split::kSeveral);
@@ -397,29 +401,32 @@ int main(int count, char** values) {
             return known ? std::string() : "no kind of scene: " + name;
           },
           "KIND"));
-  app.add_option("--rendered", options.rendered,
+  app.add_option("--rendered", options->rendered,
                  "Part of flowdlo synth's several split that rendered scenes come from")
       ->capture_default_str()
       ->check(CLI::IsMember({"training", "validation"}))
       ->type_name("PART");
-  app.add_option("--rendered-scenes", options.rendered_scenes, "How many of them")
+  app.add_option("--rendered-scenes", options->rendered_scenes, "How many of them")
       ->capture_default_str()
       ->check(CLI::Range(0, 1000000));
-  app.add_option("--rendered-first", options.rendered_first, "Index of the first of them")
+  app.add_option("--rendered-first", options->rendered_first, "Index of the first of them")
       ->capture_default_str();
-  app.add_flag("--labels", options.labels, "Frame::instances are given");
-  app.add_flag("--counted", options.counted, "The number of ropes is given");
-  app.add_option("--weights", options.weights, "The whole estimator with this model [priors alone]")
+  app.add_flag("--labels", options->labels, "Frame::instances are given");
+  app.add_flag("--counted", options->counted, "The number of ropes is given");
+  app.add_option("--weights", options->weights,
+                 "The whole estimator with this model [priors alone]")
       ->check(CLI::ExistingFile)
       ->type_name("FILE");
-  app.add_option("--field", options.field,
+  app.add_option("--field", options->field,
                  "Tell them apart by this strand field as well [the mask alone]")
       ->check(CLI::ExistingFile)
       ->type_name("FILE");
-  app.add_option("--overlays", options.overlays, "Draw the scenes that are not right into DIR")
+  app.add_option("--overlays", options->overlays, "Draw the scenes that are not right into DIR")
       ->check(CLI::ExistingDirectory)
       ->type_name("DIR");
-  app.add_flag("--all", options.all, "Draw those that are right as well");
-  CLI11_PARSE(app, count, values);
-  return run(options);
+  app.add_flag("--all", options->all, "Draw those that are right as well");
+  app.callback(
+      [options, &exit_code] { exit_code = static_cast<support::ExitCode>(::run(*options)); });
 }
+
+}  // namespace flowdlo::lab

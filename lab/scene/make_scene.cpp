@@ -1,19 +1,22 @@
-// flowdlo_make_scene OUT_DIR [--kind K] [--seed S] [--ropes N [--labels]]: one synthetic frame
+// flowdlo-lab make-scene OUT_DIR [--kind K] [--seed S] [--ropes N [--labels]]: one synthetic frame
 // folder, of one rope with its truth, or of several, with their labels where these are asked for.
-#include <charconv>
+#include <CLI/CLI.hpp>
 #include <cstdint>
 #include <filesystem>
-#include <iostream>
+#include <memory>
 #include <string>
 #include <string_view>
 
+#include "command/report_commands.hpp"
 #include "flowdlo/frame_folder.hpp"
 #include "scene/ropes.hpp"
 #include "scene/scene.hpp"
+#include "terminal.hpp"
 
 namespace {
 
 using namespace flowdlo;
+using support::ExitCode;
 
 constexpr double kDepthScale_m = 0.001;
 constexpr int kMostDrawn = 9;
@@ -22,78 +25,74 @@ struct Options {
   std::filesystem::path out;
   std::string kind;
   std::uint64_t seed = 0;
-  std::uint64_t ropes = 1;
+  int ropes = 1;
   bool labels = false;
 };
 
-int usage() {
-  std::cerr << "usage: flowdlo_make_scene OUT_DIR [--kind K] [--seed S] [--ropes N [--labels]]\n"
-               "kinds of one rope:";
-  for (int i = 0; i < lab::kKinds; ++i) std::cerr << ' ' << name_of(static_cast<lab::Kind>(i));
-  std::cerr << "\nof 2 to " << kMostDrawn << " ropes:";
-  for (int i = 0; i < lab::kRopesKinds; ++i) {
-    std::cerr << ' ' << name_of(static_cast<lab::RopesKind>(i));
+/// "coil, hairpin": every kind of one rope, or of several.
+template <class Kind>
+std::string kinds(int count) {
+  std::string all;
+  for (int i = 0; i < count; ++i) {
+    if (!all.empty()) all += ", ";
+    all += name_of(static_cast<Kind>(i));
   }
-  std::cerr << '\n';
-  return 2;
+  return all;
 }
 
-bool read_number(std::string_view text, std::uint64_t& number) {
-  const auto read = std::from_chars(text.data(), text.data() + text.size(), number);
-  return read.ec == std::errc() && read.ptr == text.data() + text.size();
+ExitCode refused(const Options& options, const std::string& known) {
+  support::tell_error("make-scene: --kind: expected one of {} for {}, got \"{}\"\n", known,
+                      options.ropes == 1 ? "one rope" : "several ropes", options.kind);
+  return ExitCode::kUsage;
 }
 
-bool read_options(int count, char** values, Options& options) {
-  for (int i = 1; i < count; ++i) {
-    const std::string_view argument = values[i];
-    const bool more = i + 1 < count;
-    if (argument == "--kind" && more) {
-      options.kind = values[++i];
-    } else if (argument == "--seed" && more) {
-      if (!read_number(values[++i], options.seed)) return false;
-    } else if (argument == "--ropes" && more) {
-      if (!read_number(values[++i], options.ropes)) return false;
-      if (options.ropes < 1 || options.ropes > kMostDrawn) return false;
-    } else if (argument == "--labels") {
-      options.labels = true;
-    } else if (argument.starts_with("-") || !options.out.empty()) {
-      return false;
-    } else {
-      options.out = argument;
-    }
-  }
-  return !options.out.empty() && (options.ropes > 1 || !options.labels);
-}
-
-int told(const Options& options, const Result<void>& saved, std::string_view kind) {
+ExitCode told(const Options& options, const Result<void>& saved, std::string_view kind) {
   if (!saved) {
-    std::cerr << saved.error().message << '\n';
-    return 1;
+    support::tell_error("{}\n", saved.error().message);
+    return ExitCode::kFailed;
   }
-  std::cout << options.out.string() << ": " << kind << ", seed " << options.seed << '\n';
-  return 0;
+  support::tell("{}: {}, seed {}\n", options.out.string(), kind, options.seed);
+  return ExitCode::kDone;
 }
 
-int make_one(const Options& options) {
+ExitCode make_one(const Options& options) {
   const auto kind = lab::kind_of(options.kind.empty() ? "one-crossing" : options.kind);
-  if (!kind) return usage();
+  if (!kind) return refused(options, kinds<lab::Kind>(lab::kKinds));
   const lab::Scene scene = lab::make_scene(*kind, options.seed);
   const auto saved = save_frame_folder(options.out, scene.frame(), kDepthScale_m, &scene.truth);
   return told(options, saved, name_of(*kind));
 }
 
-int make_several(const Options& options) {
+ExitCode make_several(const Options& options) {
   const auto kind = lab::ropes_kind_of(options.kind.empty() ? "crossing" : options.kind);
-  if (!kind) return usage();
-  const auto scene = lab::make_ropes(*kind, static_cast<int>(options.ropes), options.seed);
+  if (!kind) return refused(options, kinds<lab::RopesKind>(lab::kRopesKinds));
+  const auto scene = lab::make_ropes(*kind, options.ropes, options.seed);
   const auto saved = save_frame_folder(options.out, scene.frame(options.labels), kDepthScale_m);
   return told(options, saved, name_of(*kind));
 }
 
 }  // namespace
 
-int main(int count, char** values) {
-  Options options;
-  if (!read_options(count, values, options)) return usage();
-  return options.ropes == 1 ? make_one(options) : make_several(options);
+namespace flowdlo::lab {
+
+void add_make_scene(CLI::App& program, support::ExitCode& exit_code) {
+  auto options = std::make_shared<Options>();
+  auto& app = *program.add_subcommand("make-scene", "Draw a scene of one rope or several");
+  app.add_option("OUT", options->out, "The frame folder")->required();
+  app.add_option(
+         "--kind", options->kind,
+         "Of one rope: " + kinds<Kind>(kKinds) + "; of several: " + kinds<RopesKind>(kRopesKinds))
+      ->type_name("KIND");
+  app.add_option("--seed", options->seed, "Of the scene")->capture_default_str();
+  auto* ropes =
+      app.add_option("--ropes", options->ropes, "How many; several have no truth in the folder")
+          ->capture_default_str()
+          ->check(CLI::Range(1, kMostDrawn));
+  app.add_flag("--labels", options->labels, "The mask says which of several ropes each pixel shows")
+      ->needs(ropes);
+  app.callback([options, &exit_code] {
+    exit_code = options->ropes == 1 ? make_one(*options) : make_several(*options);
+  });
 }
+
+}  // namespace flowdlo::lab

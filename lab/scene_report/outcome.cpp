@@ -8,7 +8,7 @@
 #include "eval/metrics.hpp"
 #include "evidence/visible_points.hpp"
 #include "path/path.hpp"
-#include "prior_report/traversal.hpp"
+#include "scene_report/traversal.hpp"
 
 namespace flowdlo::lab {
 namespace {
@@ -24,8 +24,8 @@ auto timed(double& ms, const Work& work) {
 
 }  // namespace
 
-Outcome outcome_of(const Scene& scene, std::uint64_t seed) {
-  Outcome outcome;
+SceneOutcome outcome_of(const Scene& scene, std::uint64_t seed) {
+  SceneOutcome outcome;
   outcome.kind = scene.kind;
   outcome.seed = seed;
   const Frame frame = scene.frame();

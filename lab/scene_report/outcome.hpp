@@ -1,4 +1,4 @@
-// Outcome: what one scene's frame gave, beside its truth.
+// SceneOutcome: what one scene's frame gave, beside its truth.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 namespace flowdlo::lab {
 
-struct Outcome {
+struct SceneOutcome {
   Kind kind = Kind::kSimple;
   std::uint64_t seed = 0;
   bool answered = false;         ///< a path was found and lifted; otherwise all below is unset
@@ -26,6 +26,6 @@ struct Outcome {
 };
 
 /// Path, priors and confidence as the estimator makes them.
-[[nodiscard]] Outcome outcome_of(const Scene& scene, std::uint64_t seed);
+[[nodiscard]] SceneOutcome outcome_of(const Scene& scene, std::uint64_t seed);
 
 }  // namespace flowdlo::lab

@@ -1,19 +1,22 @@
-// flowdlo_scene_report: path, refined prior and confidence against the truth, kind by kind, as one
-// Markdown table; --overlays draws the worst scenes of all kinds.
+// flowdlo-lab scenes report: path, refined prior and confidence against the truth, kind by kind, as
+// one Markdown table; --overlays draws the worst scenes of all kinds.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdint>
 #include <cstdio>
+#include <memory>
 #include <string>
 #include <vector>
 
-#include "prior_report/overlay.hpp"
+#include "command/report_commands.hpp"
+#include "pictures/scene_overlay.hpp"
+#include "scene_report/confidence.hpp"
 #include "scene_report/outcome.hpp"
 
 namespace {
 
 using flowdlo::lab::Kind;
-using flowdlo::lab::Outcome;
+using flowdlo::lab::SceneOutcome;
 
 struct Options {
   int scenes = 60;
@@ -46,7 +49,7 @@ struct Tally {
   int trusted = 0;          // of the right
   std::vector<double> index_cm, thesis_cm, path_ms, prior_ms;
 
-  void add(const Outcome& outcome) {
+  void add(const SceneOutcome& outcome) {
     ++scenes;
     path_ms.push_back(outcome.path_ms);
     if (!outcome.answered) return;
@@ -79,12 +82,12 @@ struct Tally {
 };
 
 // Prints the worst to stderr and draws them where a folder is given.
-bool show_worst(std::vector<Outcome> outcomes, const Options& options) {
+bool show_worst(std::vector<SceneOutcome> outcomes, const Options& options) {
   std::sort(outcomes.begin(), outcomes.end(),
-            [](const Outcome& a, const Outcome& b) { return a.index_cm > b.index_cm; });
+            [](const SceneOutcome& a, const SceneOutcome& b) { return a.index_cm > b.index_cm; });
   outcomes.resize(std::min(outcomes.size(), static_cast<std::size_t>(options.worst)));
   bool drawn = true;
-  for (const Outcome& bad : outcomes) {
+  for (const SceneOutcome& bad : outcomes) {
     const std::string name = std::string(name_of(bad.kind)) + "_" + std::to_string(bad.seed);
     std::fprintf(stderr, "  %s: %.3f cm, %s, confidence %.2f\n", name.c_str(), bad.index_cm,
                  bad.right ? "right" : "wrong", static_cast<double>(bad.confidence));
@@ -105,7 +108,7 @@ int report(const Options& options) {
       " runner-up right, of the wrong | confidence < 0.5, of the wrong |"
       " confidence >= 0.5, of the right | path | priors |\n"
       "|---|---|---|---|---|---|---|---|---|---|---|---|\n");
-  std::vector<Outcome> all;
+  std::vector<SceneOutcome> all;
   Tally total;
   for (int k = 0; k < flowdlo::lab::kKinds; ++k) {
     const auto kind = static_cast<Kind>(k);
@@ -113,7 +116,7 @@ int report(const Options& options) {
     Tally tally;
     for (int i = 0; i < options.scenes; ++i) {
       const std::uint64_t seed = options.first + static_cast<std::uint64_t>(i);
-      const Outcome outcome = outcome_of(flowdlo::lab::make_scene(kind, seed), seed);
+      const SceneOutcome outcome = outcome_of(flowdlo::lab::make_scene(kind, seed), seed);
       tally.add(outcome);
       total.add(outcome);
       if (outcome.answered) all.push_back(outcome);
@@ -126,26 +129,35 @@ int report(const Options& options) {
 
 }  // namespace
 
-int main(int count, char** values) {
-  Options options;
-  CLI::App app{"Path, refined prior and confidence on drawn scenes, against their truth"};
-  app.add_option("--scenes", options.scenes, "Of each kind")
+namespace flowdlo::lab {
+
+void add_scenes(CLI::App& program, support::ExitCode& exit_code) {
+  auto& scenes = *program.add_subcommand(
+      "scenes", "Path, priors and confidence on scenes with truth, before any model");
+  scenes.require_subcommand(1);
+  auto options = std::make_shared<Options>();
+  auto& app =
+      *scenes.add_subcommand("report", "Path, refined prior and confidence on drawn scenes");
+  app.add_option("--scenes", options->scenes, "Of each kind")
       ->capture_default_str()
       ->check(CLI::Range(1, 1000000));
-  app.add_option("--first", options.first, "Seed of the first scene of each kind")
+  app.add_option("--first", options->first, "Seed of the first scene of each kind")
       ->capture_default_str();
-  app.add_option("--kind", options.kind, "Of this kind only")
+  app.add_option("--kind", options->kind, "Of this kind only")
       ->check(CLI::Validator(
           [](const std::string& name) {
             return flowdlo::lab::kind_of(name) ? std::string() : "no kind of scene: " + name;
           },
           "KIND"));
-  app.add_option("--overlays", options.overlays, "Draw the worst scenes into DIR")
+  app.add_option("--overlays", options->overlays, "Draw the worst scenes into DIR")
       ->check(CLI::ExistingDirectory)
       ->type_name("DIR");
-  app.add_option("--worst", options.worst, "How many of them")
+  app.add_option("--worst", options->worst, "How many of them")
       ->capture_default_str()
       ->check(CLI::Range(0, 1000000));
-  CLI11_PARSE(app, count, values);
-  return report(options);
+  app.callback(
+      [options, &exit_code] { exit_code = static_cast<support::ExitCode>(::report(*options)); });
+  add_confidence(scenes);
 }
+
+}  // namespace flowdlo::lab

@@ -1,4 +1,4 @@
-// flowdlo_sensor_report: how far nodes lie off along the ray and aside where the traversal is
+// flowdlo-lab sensor-report: how far nodes lie off along the ray and aside where the traversal is
 // right, by what the depth is: a model of the sensor's noise, or pictures that were matched.
 #include <fmt/format.h>
 
@@ -9,11 +9,13 @@
 #include <atomic>
 #include <cmath>
 #include <map>
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "command/report_commands.hpp"
 #include "estimator/conditions.hpp"
 #include "eval/metrics.hpp"
 #include "geometry/camera.hpp"
@@ -124,18 +126,7 @@ std::string text(const Row& row) {
                      median(row.aside), median(row.index));
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
-  Options options;
-  CLI::App app{"Offsets of the best prior along the ray and aside, by sensor, where it is right"};
-  app.add_option("--part", options.part, "Of the wide split")
-      ->check(CLI::IsMember({"training", "validation"}))
-      ->capture_default_str();
-  app.add_option("--first", options.first, "Index of the first scene")->capture_default_str();
-  app.add_option("--scenes", options.scenes, "How many")->capture_default_str();
-  app.add_option("--threads", options.threads, "0: one a core")->capture_default_str();
-  CLI11_PARSE(app, argc, argv);
+int run(const Options& options) {
   std::map<std::string, std::array<Row, 2>> rows;
   std::mutex mutex;
   std::atomic<std::uint64_t> next = 0;
@@ -171,3 +162,24 @@ int main(int argc, char** argv) {
   }
   return 0;
 }
+
+}  // namespace
+
+namespace flowdlo::lab {
+
+void add_sensor_report(CLI::App& program, support::ExitCode& exit_code) {
+  auto options = std::make_shared<Options>();
+  auto& app = *program.add_subcommand(
+      "sensor-report",
+      "Offsets of the best prior along the ray and aside, by sensor, where it is right");
+  app.add_option("--part", options->part, "Of the wide split")
+      ->check(CLI::IsMember({"training", "validation"}))
+      ->capture_default_str();
+  app.add_option("--first", options->first, "Index of the first scene")->capture_default_str();
+  app.add_option("--scenes", options->scenes, "How many")->capture_default_str();
+  app.add_option("--threads", options->threads, "0: one a core")->capture_default_str();
+  app.callback(
+      [options, &exit_code] { exit_code = static_cast<support::ExitCode>(::run(*options)); });
+}
+
+}  // namespace flowdlo::lab

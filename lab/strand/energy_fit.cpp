@@ -1,6 +1,6 @@
-// flowdlo_energy_fit: the weights of the path's energy (engine/path/energy.hpp), from scenes with
-// truth. Each end of a strand might have gone on with another one, or stopped, and the ends that
-// this frees would stop: what the rope really does is to be likelier than every such change.
+// flowdlo-lab energy-fit: the weights of the path's energy (engine/path/energy.hpp), from scenes
+// with truth. Each end of a strand might have gone on with another one, or stopped, and the ends
+// that this frees would stop: what the rope really does is to be likelier than every such change.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -9,12 +9,14 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <numeric>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "command/report_commands.hpp"
 #include "field/axes.hpp"
 #include "field/strand_field.hpp"
 #include "geometry/quantile.hpp"
@@ -403,26 +405,21 @@ const std::array<const char*, kTerms> kNames{
     "link: long", "bend",      "bend of a stump", "open",   "unshown", "color",
     "depth",      "elsewhere", "stop: start",     "unseen", "goes on", "start of one"};
 
-}  // namespace
-
-int main(int argc, char** argv) {
+struct Options {
   flowdlo::strand::SceneRange range;
   std::uint64_t several = 0;
   double ridge = 2;
   std::string without;
-  CLI::App app{"The weights of the path's energy, fitted to scenes with truth"};
-  range.part = "training";
-  flowdlo::strand::add_options(app, range);
-  app.add_option("--several", several, "So many scenes of several ropes as well, from the same on");
-  app.add_option("--ridge", ridge, "Half the weight of the weights' squares");
-  app.add_option("--without", without, "Terms that are not used, by their numbers, as 5,8");
-  CLI11_PARSE(app, argc, argv);
-  const auto weights = flowdlo::strand::weights_of(range);
+};
+
+int run(const Options& options) {
+  auto range = options.range;
+  const auto weights = flowdlo::strand::weights_of(options.range);
   if (!weights) return 1;
   std::vector<Choice> fit;
   std::vector<Choice> held;
   for (const auto split : {synth::Split::kWide, synth::Split::kSeveral}) {
-    if (split == synth::Split::kSeveral) range.scenes = several;
+    if (split == synth::Split::kSeveral) range.scenes = options.several;
     const auto outcomes = flowdlo::strand::over_scenes<Outcome>(
         range, weights, [&](std::uint64_t index, field::Network& network) {
           return measure(split, range.part, index, network);
@@ -435,9 +432,10 @@ int main(int argc, char** argv) {
   std::array<bool, kTerms> free{};
   free.fill(true);
   for (std::size_t i = 0; i < kTerms; ++i) {
-    if (("," + without + ",").find(fmt::format(",{},", i)) != std::string::npos) free[i] = false;
+    if (("," + options.without + ",").find(fmt::format(",{},", i)) != std::string::npos)
+      free[i] = false;
   }
-  const Weights all = fitted(fit, ridge, free);
+  const Weights all = fitted(fit, options.ridge, free);
   const Quality best = quality_of(held, all);
   Weights now = Weights::Zero();
   for (std::size_t i = 0; i < path::kLinkTerms; ++i)
@@ -455,9 +453,30 @@ int main(int argc, char** argv) {
     if (!free[i]) continue;
     auto others = free;
     others[i] = false;
-    const Quality quality = quality_of(held, fitted(fit, ridge, others));
+    const Quality quality = quality_of(held, fitted(fit, options.ridge, others));
     fmt::print("| {} | {:.3f} | {:+.4f} | {:.2f} |\n", kNames[i], all[static_cast<Eigen::Index>(i)],
                quality.unlikely - best.unlikely, 100 * quality.right);
   }
   return 0;
 }
+
+}  // namespace
+
+namespace flowdlo::lab {
+
+void add_energy_fit(CLI::App& program, support::ExitCode& exit_code) {
+  auto options = std::make_shared<Options>();
+  auto& app = *program.add_subcommand(
+      "energy-fit", "The weights of the path's energy, fitted to scenes with truth");
+  options->range.part = "training";
+  flowdlo::strand::add_options(app, options->range);
+  app.add_option("--several", options->several,
+                 "So many scenes of several ropes as well, from the same on");
+  app.add_option("--ridge", options->ridge, "Half the weight of the weights' squares");
+  app.add_option("--without", options->without,
+                 "Terms that are not used, by their numbers, as 5,8");
+  app.callback(
+      [options, &exit_code] { exit_code = static_cast<support::ExitCode>(::run(*options)); });
+}
+
+}  // namespace flowdlo::lab

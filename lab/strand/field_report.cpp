@@ -1,4 +1,4 @@
-// flowdlo_field_report: what a strand field finds on scenes with truth, beside thinning of the
+// flowdlo-lab field-report: what a strand field finds on scenes with truth, beside thinning of the
 // mask.
 #include <fmt/format.h>
 
@@ -8,14 +8,15 @@
 #include <filesystem>
 #include <map>
 #include <memory>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <string>
 #include <vector>
 
+#include "command/report_commands.hpp"
 #include "field/channel.hpp"
 #include "field/sight.hpp"
 #include "field/strand_field.hpp"
+#include "mat/mat_file.hpp"
 #include "mat/mat_image.hpp"
 #include "path/path.hpp"
 #include "strand/measure.hpp"
@@ -65,9 +66,9 @@ std::string row(const std::string& name, std::size_t scenes, const Counts& c) {
       percent(c.crossings_right, c.crossings), c.crossings);
 }
 
-constexpr double kDark = 0.06;      // of the light; 8 bits keep a few levels of it
-constexpr double kNoise = 1.5;      // levels
-constexpr int kBlur_px = 11;        // that everything moved by while the shutter was open
+constexpr double kDark = 0.06;  // of the light; 8 bits keep a few levels of it
+constexpr double kNoise = 1.5;  // levels
+constexpr int kBlur_px = 11;    // that everything moved by while the shutter was open
 constexpr std::uint64_t kNoiseSeed = 5;
 constexpr float kLeastTip = 0.3F;  // in the table of other thresholds
 
@@ -297,7 +298,10 @@ int run(const Options& options) {
     if (!measure(options, outcomes[i].index, *network, &drawn)) continue;
     const auto file = options.pictures /
                       fmt::format("{:02}_{}_{}.png", i, outcomes[i].index, outcomes[i].scenario);
-    cv::imwrite(file.string(), drawn);
+    if (const auto saved = flowdlo::mat::save_png(file, drawn); !saved) {
+      fmt::print(stderr, "{}\n", saved.error().message);
+      return 1;
+    }
     const Counts& c = outcomes[i].field;
     fmt::print("{}: {} of {} places missed; {} of {} tips are none, {} of {} ends missed\n",
                file.string(), c.places - c.found, c.places, c.tips - c.tips_right, c.tips,
@@ -308,23 +312,29 @@ int run(const Options& options) {
 
 }  // namespace
 
-int main(int argc, char** argv) {
-  CLI::App app{"What a strand field finds on scenes with truth, beside thinning of the mask"};
-  Options options;
-  options.range.scenes = 100;
-  flowdlo::strand::add_options(app, options.range);
-  app.add_option("--drop", options.drop, "What the camera does not give")
+namespace flowdlo::lab {
+
+void add_field_report(CLI::App& program, support::ExitCode& exit_code) {
+  auto options = std::make_shared<Options>();
+  auto& app = *program.add_subcommand(
+      "field-report",
+      "What a strand field finds on scenes with truth, beside thinning of the mask");
+  options->range.scenes = 100;
+  flowdlo::strand::add_options(app, options->range);
+  app.add_option("--drop", options->drop, "What the camera does not give")
       ->check(CLI::IsMember({"nothing", "color", "depth", "both"}));
-  app.add_option("--colors", options.colors, "What becomes of the scene's colours")
+  app.add_option("--colors", options->colors, "What becomes of the scene's colours")
       ->check(CLI::IsMember({"given", "flat", "grey", "dark", "blurred"}));
-  app.add_option("--width", options.width, "The width believed, over the true one")
+  app.add_option("--width", options->width, "The width believed, over the true one")
       ->check(CLI::Range(0.1, 10.0));
-  app.add_flag("--width-of-mask", options.width_of_mask,
+  app.add_flag("--width-of-mask", options->width_of_mask,
                "Believe the width that the path measures");
-  app.add_option("--pictures", options.pictures, "Folder for pictures of the worst scenes");
-  app.add_option("--worst-by", options.worst_by, "By what a scene is worse than another")
+  app.add_option("--pictures", options->pictures, "Folder for pictures of the worst scenes");
+  app.add_option("--worst-by", options->worst_by, "By what a scene is worse than another")
       ->check(CLI::IsMember({"places", "tips", "crossings"}));
-  app.add_option("--worst", options.worst, "How many pictures")->check(CLI::Range(0, 1000));
-  CLI11_PARSE(app, argc, argv);
-  return run(options);
+  app.add_option("--worst", options->worst, "How many pictures")->check(CLI::Range(0, 1000));
+  app.callback(
+      [options, &exit_code] { exit_code = static_cast<support::ExitCode>(::run(*options)); });
 }
+
+}  // namespace flowdlo::lab

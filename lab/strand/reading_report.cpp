@@ -1,5 +1,5 @@
-// flowdlo_reading_report: the centerline that comes of the mask as given, and of a strand field,
-// before any model or gate, on `wide` scenes with truth.
+// flowdlo-lab reading-report: the centerline that comes of the mask as given, and of a strand
+// field, before any model or gate, on `wide` scenes with truth.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -8,11 +8,11 @@
 #include <filesystem>
 #include <map>
 #include <memory>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <string>
 #include <vector>
 
+#include "command/report_commands.hpp"
 #include "estimator/conditions.hpp"
 #include "estimator/confidence.hpp"
 #include "estimator/second_look.hpp"
@@ -22,6 +22,7 @@
 #include "field/strand_field.hpp"
 #include "geometry/camera.hpp"
 #include "geometry/polyline.hpp"
+#include "mat/mat_file.hpp"
 #include "mat/mat_image.hpp"
 #include "path/strand_reading.hpp"
 #include "strand/measure.hpp"
@@ -109,7 +110,9 @@ void draw(const std::filesystem::path& file, const field::StrandField& seen,
              place(seen.region.to_region(path.points_px[i])),
              cv::Scalar(255 * (1 - t), 255 * t, 255 * t), 1);
   }
-  cv::imwrite(file.string(), picture);
+  if (const auto saved = flowdlo::mat::save_png(file, picture); !saved) {
+    fmt::print(stderr, "{}\n", saved.error().message);
+  }
 }
 
 flowdlo::Result<Outcome> measure(const Options& options, std::uint64_t index,
@@ -229,13 +232,19 @@ int run(const Options& options) {
 
 }  // namespace
 
-int main(int argc, char** argv) {
-  CLI::App app{"The centerline of the mask and of a strand field, before any model or gate"};
-  Options options;
-  flowdlo::strand::add_options(app, options.range);
-  app.add_option("--list-over", options.list_over_cm,
+namespace flowdlo::lab {
+
+void add_reading_report(CLI::App& program, support::ExitCode& exit_code) {
+  auto options = std::make_shared<Options>();
+  auto& app = *program.add_subcommand(
+      "reading-report",
+      "The centerline of the mask and of a strand field, before any model or gate");
+  flowdlo::strand::add_options(app, options->range);
+  app.add_option("--list-over", options->list_over_cm,
                  "Name scenes whose field's error is larger, cm");
-  app.add_option("--pictures", options.pictures, "Folder for pictures of every scene");
-  CLI11_PARSE(app, argc, argv);
-  return run(options);
+  app.add_option("--pictures", options->pictures, "Folder for pictures of every scene");
+  app.callback(
+      [options, &exit_code] { exit_code = static_cast<support::ExitCode>(::run(*options)); });
 }
+
+}  // namespace flowdlo::lab

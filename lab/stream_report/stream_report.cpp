@@ -1,6 +1,6 @@
-// flowdlo_stream_report: rendered scenes that stand still, each frame with its own noise. How often
-// ends change places and curves jump, without hints and with the frame before; and what a frame
-// before does that is wrong.
+// flowdlo-lab stream-report: rendered scenes that stand still, each frame with its own noise. How
+// often ends change places and curves jump, without hints and with the frame before; and what a
+// frame before does that is wrong.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -8,12 +8,14 @@
 #include <atomic>
 #include <cstdint>
 #include <cstdio>
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <string>
 #include <thread>
 #include <vector>
 
+#include "command/report_commands.hpp"
 #include "flowdlo/estimator.hpp"
 #include "geometry/polyline.hpp"
 #include "stream_report/steadiness.hpp"
@@ -222,28 +224,33 @@ int report(const Options& options) {
 
 }  // namespace
 
-int main(int count, char** values) {
-  Options options;
-  CLI::App app{"How steady estimates of still scenes are, frame by frame with fresh noise"};
-  app.add_option("--weights", options.weights, "A .fdw file [the one that ships]")
+namespace flowdlo::lab {
+
+void add_stream_report(CLI::App& program, support::ExitCode& exit_code) {
+  auto options = std::make_shared<Options>();
+  auto& app = *program.add_subcommand(
+      "stream-report", "How steady estimates of still scenes are, frame by frame with fresh noise");
+  app.add_option("--weights", options->weights, "A .fdw file [the one that ships]")
       ->type_name("FILE");
-  app.add_option("--part", options.part, "Scenes of the wide split: training or validation")
+  app.add_option("--part", options->part, "Scenes of the wide split: training or validation")
       ->capture_default_str()
       ->check(CLI::IsMember({"training", "validation"}));
-  app.add_option("--first", options.first, "Index of the first scene")->capture_default_str();
-  app.add_option("--scenes", options.scenes, "How many")
+  app.add_option("--first", options->first, "Index of the first scene")->capture_default_str();
+  app.add_option("--scenes", options->scenes, "How many")
       ->capture_default_str()
       ->check(CLI::Range(1, 100000));
-  app.add_option("--frames", options.frames, "Of each scene")
+  app.add_option("--frames", options->frames, "Of each scene")
       ->capture_default_str()
       ->check(CLI::Range(1, 100000));
-  app.add_option("--jobs", options.jobs, "Scenes at a time")
+  app.add_option("--jobs", options->jobs, "Scenes at a time")
       ->capture_default_str()
       ->check(CLI::Range(1, 64));
-  app.add_flag("--full", options.full, "All steps and draws, not quality fast");
-  app.add_flag("--mislead", options.mislead,
+  app.add_flag("--full", options->full, "All steps and draws, not quality fast");
+  app.add_flag("--mislead", options->mislead,
                "Also with a wrong frame before: the best alternative that runs elsewhere");
-  app.add_flag("--list", options.list, "Every scene and every jump on stderr");
-  CLI11_PARSE(app, count, values);
-  return report(options);
+  app.add_flag("--list", options->list, "Every scene and every jump on stderr");
+  app.callback(
+      [options, &exit_code] { exit_code = static_cast<support::ExitCode>(::report(*options)); });
 }
+
+}  // namespace flowdlo::lab

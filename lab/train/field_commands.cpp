@@ -3,11 +3,10 @@
 
 #include <filesystem>
 #include <memory>
-#include <opencv2/imgcodecs.hpp>
 
 #include "field/channel.hpp"
 #include "field/sight.hpp"
-#include "files/whole_file.hpp"
+#include "mat/mat_file.hpp"
 #include "progress_bar.hpp"
 #include "strand/export.hpp"
 #include "strand/patch_store.hpp"
@@ -66,7 +65,7 @@ int make_patches(const PatchArguments& arguments) {
   if (!recipe) return failed(recipe.error(), 2);
   strand::DataConfig data = recipe->data;
   if (arguments.scenes > 0) data.scenes = arguments.scenes;
-  tools::ProgressBar bar("scenes", static_cast<int>(data.scenes), arguments.quiet);
+  support::ProgressBar bar("scenes", static_cast<int>(data.scenes), arguments.quiet);
   const auto made = strand::make_patches(arguments.folder, data, threads::count(arguments.threads),
                                          [&] { bar.advance(); });
   bar.clear();
@@ -117,9 +116,7 @@ int look_at_samples(const LookArguments& arguments) {
     sheet.push_back(shown(strand::sample_of(*patch, recipe->schedule.size_px, recipe->seed,
                                             arguments.first + i, recipe->spoil)));
   }
-  std::vector<std::uint8_t> png;
-  cv::imencode(".png", sheet, png);
-  const auto written = files::write_file(arguments.file, {png});
+  const auto written = mat::save_png(arguments.file, sheet);
   return written ? 0 : failed(written.error());
 }
 

@@ -25,8 +25,8 @@ struct Arguments {
 Result<void> make_part(const Arguments& arguments, const Recipe& recipe, Part part,
                        std::uint64_t scenes) {
   const int threads = threads::count(arguments.threads);
-  tools::ProgressBar bar(fmt::format("{} records", name_of(part)), static_cast<int>(scenes),
-                         arguments.quiet);
+  support::ProgressBar bar(fmt::format("{} records", name_of(part)), static_cast<int>(scenes),
+                           arguments.quiet);
   auto made = make_records(arguments.folder, part, scenes, recipe.data.source,
                            recipe.record_options(), threads, [&] { bar.advance(); });
   if (!made) return made;

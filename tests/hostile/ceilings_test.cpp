@@ -1,5 +1,5 @@
 // Whatever the mask holds: processor time beside an ordinary frame of the same size in the same
-// run, and the peak of memory. The whole corpus is flowdlo_hostile_report's.
+// run, and the peak of memory. The whole corpus is flowdlo-lab hostile-report's.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // Several ropes of one mask, on scenes with truth: which share of each kind has to be right is
-// flowdlo_ropes_report's.
+// flowdlo-lab ropes-report's.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

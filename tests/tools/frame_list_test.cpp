@@ -5,7 +5,7 @@
 
 #include "frame/temporary_folder.hpp"
 
-namespace flowdlo::tools {
+namespace flowdlo::support {
 namespace {
 
 namespace fs = std::filesystem;
@@ -54,4 +54,4 @@ TEST(FrameList, TwoFramesOfOneNameAreRefused) {
 TEST(FrameList, PathWithoutANameIsRefused) { EXPECT_FALSE(list_frames({fs::path("/")})); }
 
 }  // namespace
-}  // namespace flowdlo::tools
+}  // namespace flowdlo::support

@@ -1,7 +1,11 @@
 // flowdlo synth: frame folders that the reader gives back bit for bit, whole or not at all.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
+#include <chrono>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -29,6 +33,36 @@ std::set<std::string> names_in(const fs::path& folder) {
     names.insert(entry.path().filename().string());
   }
   return names;
+}
+
+/// Whether `process` becomes the program `name` within ten seconds.
+bool becomes(pid_t process, const std::string& name) {
+  const auto link = fs::path("/proc") / std::to_string(process) / "exe";
+  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(10);
+  while (std::chrono::steady_clock::now() < end) {
+    std::error_code ignored;
+    if (fs::read_symlink(link, ignored).filename() == name) return true;
+    ::usleep(10000);
+  }
+  return false;
+}
+
+TEST(SynthCommand, IsTheProcessThatWasStartedAndEndsByCtrlC) {
+  const TemporaryFolder scratch;
+  const std::string out = (scratch.path() / "set").string();
+  const pid_t process = ::fork();
+  ASSERT_GE(process, 0);
+  if (process == 0) {
+    ::execl(FLOWDLO_COMMAND, FLOWDLO_COMMAND, "synth", out.c_str(), "--count", "1000000", "--quiet",
+            nullptr);
+    ::_exit(127);
+  }
+  EXPECT_TRUE(becomes(process, "flowdlo-lab"));
+  ::kill(process, SIGINT);
+  int status = 0;
+  ASSERT_EQ(::waitpid(process, &status, 0), process);
+  EXPECT_TRUE(WIFSIGNALED(status));
+  EXPECT_EQ(WTERMSIG(status), SIGINT);
 }
 
 TEST(SynthCommand, WritesTheFramesThatMakeFrameMakes) {

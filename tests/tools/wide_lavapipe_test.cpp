@@ -8,7 +8,7 @@
 #include "frame/temporary_folder.hpp"
 #include "tools/program.hpp"
 
-namespace flowdlo::tools {
+namespace flowdlo::support {
 namespace {
 
 using Json = nlohmann::json;
@@ -64,4 +64,4 @@ TEST(WideLavapipe, HasMoreThanEightLanesInTheRightMesaAlone) {
 }
 
 }  // namespace
-}  // namespace flowdlo::tools
+}  // namespace flowdlo::support

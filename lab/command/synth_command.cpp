@@ -1,0 +1,244 @@
+#include "command/synth_command.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <atomic>
+#include <cstdio>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "choice.hpp"
+#include "command/contact_sheet.hpp"
+#include "command/synth_folder.hpp"
+#include "progress_bar.hpp"
+#include "synth/synthetic_frame.hpp"
+#include "terminal.hpp"
+#include "threads/team.hpp"
+
+namespace flowdlo::lab {
+namespace {
+
+namespace fs = std::filesystem;
+constexpr std::uint64_t kDefaultCount = 100;  // of splits that have no end
+constexpr std::uint64_t kMostOnASheet = 60;
+
+struct SynthOptions {
+  fs::path out;
+  synth::Split split = synth::Split::kWide;
+  synth::Part part = synth::Part::kTraining;
+  std::uint64_t count = 0;
+  std::uint64_t first = 0;
+  std::uint64_t seed = 0;
+  int frames_per_scene = 1;
+  bool matched = false;
+  std::string scenario;
+  fs::path sheet;
+  int threads = 0;
+  bool quiet = false;
+};
+
+struct Job {
+  std::uint64_t index = 0;
+  int frame = 0;
+};
+
+Error usage(std::string message) { return {ErrorCode::kBadInput, std::move(message)}; }
+
+std::string list_of(std::span<const std::string_view> names) {
+  std::string text;
+  for (const auto name : names) text += fmt::format("{}{}", text.empty() ? "" : ", ", name);
+  return text;
+}
+
+Result<void> check(const SynthOptions& options) {
+  if (options.out.empty() && options.sheet.empty()) {
+    return usage("synth: expected OUT, a folder for the frames, or --contact-sheet FILE");
+  }
+  const auto names = synth::scenarios(options.split);
+  const bool known = options.scenario.empty() ||
+                     std::find(names.begin(), names.end(), options.scenario) != names.end();
+  if (!known) {
+    return usage(fmt::format("synth: --scenario: expected one of {}, got \"{}\"", list_of(names),
+                             options.scenario));
+  }
+  return {};
+}
+
+// The scenes asked for: `count` from `first` on, of one scenario where one is named.
+Result<std::vector<Job>> jobs_of(const SynthOptions& options) {
+  const std::uint64_t end = synth::scene_count(options.split, options.part);
+  const std::uint64_t wanted = options.count > 0 ? options.count : end > 0 ? end : kDefaultCount;
+  std::vector<Job> jobs;
+  std::uint64_t scenes = 0;
+  for (std::uint64_t index = options.first; scenes < wanted && (end == 0 || index < end); ++index) {
+    const auto scenario = synth::scenario_of(options.split, options.part, options.seed, index);
+    if (!scenario) return scenario.error();
+    if (!options.scenario.empty() && *scenario != options.scenario) continue;
+    ++scenes;
+    for (int frame = 0; frame < options.frames_per_scene; ++frame) jobs.push_back({index, frame});
+  }
+  if (options.count > 0 && scenes < wanted) {
+    return usage(
+        fmt::format("synth: --count: expected at most {}, got {}; the {} split's {} part "
+                    "has no more such scenes",
+                    scenes, wanted, synth::name_of(options.split), synth::name_of(options.part)));
+  }
+  return jobs;
+}
+
+/// Runs the jobs on several threads; the first fault ends all of them.
+class Crew {
+ public:
+  Crew(const SynthOptions& options, const std::vector<Job>& jobs, const SynthFolder* folder)
+      : options_(options),
+        jobs_(jobs),
+        folder_(folder),
+        progress_("synth", static_cast<int>(jobs.size()), options.quiet),
+        sheet_(options.sheet.empty() ? 0 : std::min<std::size_t>(jobs.size(), kMostOnASheet)) {}
+
+  Result<void> work() {
+    threads::work_together(threads::count(options_.threads), [this](int) { work_off(); });
+    if (fault_) return *fault_;
+    return {};
+  }
+
+  [[nodiscard]] const std::vector<synth::SyntheticFrame>& sheet() const { return sheet_; }
+  [[nodiscard]] int kept() const { return kept_; }
+
+ private:
+  void work_off() {
+    for (std::size_t k = next_++; k < jobs_.size(); k = next_++) {
+      const auto done = make(k);
+      const std::lock_guard lock(mutex_);
+      if (fault_) return;
+      if (!done) {
+        fault_ = done.error();
+        return;
+      }
+      progress_.advance();
+    }
+  }
+
+  Result<void> make(std::size_t k) {
+    const bool shown = k < sheet_.size();
+    const auto known = synth::identity(options_.split, options_.part, options_.seed, jobs_[k].index,
+                                       jobs_[k].frame);
+    if (!known) return known.error();
+    const auto there = folder_ != nullptr ? folder_->holds(*known) : Result<bool>(true);
+    if (!there) return there.error();
+    kept_ += folder_ != nullptr && *there ? 1 : 0;
+    if (*there && !shown) return {};
+    auto frame =
+        synth::make_frame(options_.split, options_.part, options_.seed, jobs_[k].index,
+                          {.color = true, .frame = jobs_[k].frame, .matched = options_.matched});
+    if (!frame) return frame.error();
+    if (!*there) {
+      if (auto saved = folder_->save(*frame); !saved) return saved;
+    }
+    if (shown) sheet_[k] = std::move(*frame);
+    return {};
+  }
+
+  const SynthOptions& options_;
+  const std::vector<Job>& jobs_;
+  const SynthFolder* folder_;
+  support::ProgressBar progress_;
+  std::vector<synth::SyntheticFrame> sheet_;
+  std::atomic<std::size_t> next_ = 0;
+  std::atomic<int> kept_ = 0;
+  std::mutex mutex_;
+  std::optional<Error> fault_;
+};
+
+Result<std::string> run_jobs(const SynthOptions& options) {
+  if (auto good = check(options); !good) return good.error();
+  const auto jobs = jobs_of(options);
+  if (!jobs) return jobs.error();
+  std::optional<SynthFolder> folder;
+  if (!options.out.empty()) {
+    auto opened = SynthFolder::open(options.out);
+    if (!opened) return opened.error();
+    folder.emplace(std::move(*opened));
+  }
+  Crew crew(options, *jobs, folder ? &*folder : nullptr);
+  if (auto done = crew.work(); !done) return done.error();
+  std::string said;
+  if (folder) {
+    said = fmt::format("{}: {} frames of the {} split's {} part", options.out.string(),
+                       jobs->size(), synth::name_of(options.split), synth::name_of(options.part));
+    if (crew.kept() > 0) said += fmt::format(", {} of them were there already", crew.kept());
+    said += '\n';
+  }
+  if (!options.sheet.empty()) {
+    if (auto saved = save_contact_sheet(options.sheet, crew.sheet()); !saved) return saved.error();
+    said += fmt::format("{}: {} frames\n", options.sheet.string(), crew.sheet().size());
+  }
+  return said;
+}
+
+support::ExitCode run(const SynthOptions& options) {
+  const auto said = run_jobs(options);
+  if (!said) {
+    support::tell_error("{}\n", said.error().message);
+    return said.error().code == ErrorCode::kBadInput ? support::ExitCode::kUsage
+                                                     : support::ExitCode::kFailed;
+  }
+  if (!options.quiet) support::tell("{}", *said);
+  return support::ExitCode::kDone;
+}
+
+}  // namespace
+
+void add_synth_command(CLI::App& app, support::ExitCode& exit_code) {
+  auto options = std::make_shared<SynthOptions>();
+  auto* command = app.add_subcommand("synth", "Synthetic frames with truth");
+  command->add_option("OUT", options->out, "Frame folders go to OUT/<index>_<scenario>/");
+  command
+      ->add_option("--split", options->split,
+                   "thesis (nine groups on a table, clean depth), wide (sensors, occluders, "
+                   "hanging ropes) or several (the same with two to nine ropes) [wide]")
+      ->transform(support::choice<synth::Split>({{"thesis", synth::Split::kThesis},
+                                                 {"wide", synth::Split::kWide},
+                                                 {"several", synth::Split::kSeveral}}))
+      ->type_name("NAME");
+  command
+      ->add_option("--part", options->part,
+                   "training or validation; they share no scene [training]")
+      ->transform(support::choice<synth::Part>(
+          {{"training", synth::Part::kTraining}, {"validation", synth::Part::kValidation}}))
+      ->type_name("NAME");
+  command->add_option("--count", options->count, "Scenes [thesis: all, others: 100]")
+      ->check(CLI::Range(1, 100000000));
+  command->add_option("--first", options->first, "Index of the first scene")
+      ->capture_default_str()
+      ->check(CLI::NonNegativeNumber);
+  command->add_option("--seed", options->seed, "0: the scenes of the tables")
+      ->capture_default_str()
+      ->check(CLI::NonNegativeNumber);
+  command
+      ->add_option("--frames-per-scene", options->frames_per_scene,
+                   "Of one static scene; they differ in noise and light")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 10000));
+  command->add_flag("--matched", options->matched,
+                    "Depth of stereo cameras by matching two infrared pictures, not by a model of "
+                    "their noise; takes a few seconds a scene");
+  command->add_option("--scenario", options->scenario, "Scenes of one group only")
+      ->type_name("NAME");
+  command
+      ->add_option("--contact-sheet", options->sheet,
+                   "The first 60 frames on one PNG; OUT may be left away")
+      ->type_name("FILE");
+  command->add_option("--threads", options->threads, "0: one a core")
+      ->capture_default_str()
+      ->check(CLI::Range(0, 1024));
+  command->add_flag("--quiet", options->quiet, "Print errors only");
+  command->callback([options, &exit_code] { exit_code = run(*options); });
+}
+
+}  // namespace flowdlo::lab

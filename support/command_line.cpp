@@ -1,0 +1,46 @@
+#include "command_line.hpp"
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <exception>
+#include <sstream>
+
+#include "shell_commands.hpp"
+#include "terminal.hpp"
+
+namespace flowdlo::support {
+namespace {
+
+/// What CLI11 has to say: help, the version, or what is wrong with the arguments.
+ExitCode explained(const CLI::App& app, const CLI::ParseError& end) {
+  std::ostringstream out;
+  std::ostringstream err;
+  const int code = app.exit(end, out, err);
+  say(stdout, out.str());
+  say(stderr, err.str());
+  return code == 0 ? ExitCode::kDone : ExitCode::kUsage;
+}
+
+ExitCode run(CLI::App& app, int argc, char** argv, const ExitCode& exit_code) {
+  if (const auto unknown = unknown_command(app, argc > 1 ? argv[1] : ""); !unknown.empty()) {
+    tell_error("{}", unknown);
+    return ExitCode::kUsage;
+  }
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& end) {  // --help and --version come this way as well
+    return explained(app, end);
+  } catch (const std::exception& failure) {
+    tell_error("{}: {}\n", app.get_name(), failure.what());
+    return ExitCode::kFailed;
+  }
+  return exit_code;
+}
+
+}  // namespace
+
+int run_command_line(CLI::App& app, int argc, char** argv, const ExitCode& exit_code) {
+  return finished(app.get_name(), static_cast<int>(run(app, argc, argv, exit_code)));
+}
+
+}  // namespace flowdlo::support
