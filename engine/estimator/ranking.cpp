@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kMarginScore = 3.0;  // the lead that leaves a third of the doubt
 // In the order of `penalties`, in units of path score. Fitted on synthetic scenes by
-// `flowdlo_confidence fit --scenes 130 --wide 1400`; sharp bends speak against none there.
+// `flowdlo-lab scenes fit --scenes 130 --wide 1400`; sharp bends speak against none there.
 constexpr std::array<double, kPenalties> kPenaltyWeights{11.94, 1.88, 6.52, 5.65, 7.34, 0.0};
 
 void measure_path(const path::Path& path, float rope_width_px, Evidence& evidence) {

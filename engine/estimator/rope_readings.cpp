@@ -19,7 +19,7 @@ constexpr int kCompared = 64;        // points of a path that are held against a
 constexpr float kSameWidths = 1.5F;  // between two paths of one rope, at most
 
 // Odds of a rope are exp(at_none + each * lead). With a strand field: most likely on 112 drawn and
-// 267 rendered scenes (`flowdlo_ropes_report --scenes 4 --rendered-scenes 300 --rendered-first
+// 267 rendered scenes (`flowdlo-lab ropes-report --scenes 4 --rendered-scenes 300 --rendered-first
 // 1000100
 // --field weights/field.safetensors`); of the mask alone, in its costs: on 128 drawn scenes.
 struct Odds {

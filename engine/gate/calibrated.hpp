@@ -20,7 +20,7 @@ namespace flowdlo::gate {
 /// A mean index error below this, Eq. (4.1), is what the probability promises.
 inline constexpr double kCloseError_m = 0.01;
 
-/// What flowdlo_gate_fit fits. Every model has its own.
+/// What flowdlo-lab gate-fit fits. Every model has its own.
 struct GateWeights {
   std::array<double, kDrawFeatures> draw{};
   double draw_margin = 0;                      ///< score above which a draw replaces its prior

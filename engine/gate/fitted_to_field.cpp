@@ -1,4 +1,4 @@
-// Written by flowdlo_gate_fit; do not edit. Each list is in the order of its features.
+// Written by flowdlo-lab gate-fit; do not edit. Each list is in the order of its features.
 // Choice kept; confidence and sigma_m fitted on 60 scenes of wide training from 5000000,
 // and 2578 and 650 of thesis without a model; weights 59f850ab35794e5c...
 #include "gate/calibrated.hpp"

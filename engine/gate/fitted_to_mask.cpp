@@ -1,4 +1,4 @@
-// Written by flowdlo_gate_fit; do not edit. Each list is in the order of its features.
+// Written by flowdlo-lab gate-fit; do not edit. Each list is in the order of its features.
 // Fitted on 600 scenes of wide training from 1000000, and 19995 and 5000 of thesis without a model;
 // weights 59f850ab35794e5c...
 #include "gate/calibrated.hpp"

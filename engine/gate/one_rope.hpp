@@ -6,9 +6,9 @@
 
 namespace flowdlo::gate {
 
-/// Where a doubt begins. Chosen on training scenes (flowdlo_one_rope_report --csv), of which 255 of
-/// the wide split and 55 drawn ones have an estimate that is right (under 1 cm); "right ones" are
-/// these.
+/// Where a doubt begins. Chosen on training scenes (flowdlo-lab one-rope-report --csv), of which
+/// 255 of the wide split and 55 drawn ones have an estimate that is right (under 1 cm); "right
+/// ones" are these.
 struct OneRopeLimits {
   float slender = 5;          ///< widths; shorter is no rope. Right ones from 10, discs up to 2
   float sides = 0.25F;        ///< share; less is no rope. Right ones from 0.80, full masks 0

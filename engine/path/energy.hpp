@@ -30,9 +30,9 @@ enum StopTerm : std::size_t {
 };
 using StopTerms = std::array<float, kStopTerms>;
 
-/// Of one rope's way, which has two ends whatever they cost. Fitted by `flowdlo_energy_fit` to the
-/// ends of strands in 900 `wide` training scenes of one rope (from 3200000 on), of which the right
-/// one of all links is to be the likeliest; colour and depth as below.
+/// Of one rope's way, which has two ends whatever they cost. Fitted by `flowdlo-lab energy-fit` to
+/// the ends of strands in 900 `wide` training scenes of one rope (from 3200000 on), of which the
+/// right one of all links is to be the likeliest; colour and depth as below.
 inline constexpr LinkTerms kOneRopeLinks{1.0F, 1.05F, 0.95F, 2.0F, 3.4F, 0.8F, 1.0F, 0.0F};
 
 /// Where a rope may as well end. Fitted by the same with `--first 3200000 --scenes 200 --several
@@ -41,7 +41,7 @@ inline constexpr LinkTerms kSeveralRopesLinks{2.1F, 1.0F, 0.4F, 2.0F, 1.7F, 1.0F
 inline constexpr StopTerms kStopWeights{1.6F, 4.7F, 1.0F};
 
 /// Of each width of a strand that a path leaves out. Chosen on `wide` training scenes 3000500 to
-/// 3000749 by `flowdlo_reading_report`: 1 is worse by 0.1 cm, 4 by 0.02.
+/// 3000749 by `flowdlo-lab reading-report`: 1 is worse by 0.1 cm, 4 by 0.02.
 inline constexpr float kLeftOutEnergy = 2.5F;
 
 template <std::size_t Count>

@@ -13,8 +13,8 @@ namespace flowdlo::path {
 
 /// What one more rope of the mask's own strands costs beside where its two ends lie, dimensionless
 /// as Bond::cost. A gap that costs more parts two ropes, and what is left out for less is no rope:
-/// a stretch of two widths. Chosen on drawn scenes (flowdlo_ropes_report): below 2, ropes that gaps
-/// part fall to pieces; from 6 on, ropes that cross flatly are joined.
+/// a stretch of two widths. Chosen on drawn scenes (flowdlo-lab ropes-report): below 2, ropes that
+/// gaps part fall to pieces; from 6 on, ropes that cross flatly are joined.
 inline constexpr float kRopeCost = 3.5F;
 
 /// And one more ring, which has no ends.
