@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <exception>
+#include <span>
 #include <sstream>
 
 #include "shell_commands.hpp"
@@ -22,7 +23,8 @@ ExitCode explained(const CLI::App& app, const CLI::ParseError& end) {
 }
 
 ExitCode run(CLI::App& app, int argc, char** argv, const ExitCode& exit_code) {
-  if (const auto unknown = unknown_command(app, argc > 1 ? argv[1] : ""); !unknown.empty()) {
+  const auto words = std::span(argv, static_cast<std::size_t>(argc)).subspan(argc > 0 ? 1 : 0);
+  if (const auto unknown = unknown_command(app, words); !unknown.empty()) {
     tell_error("{}", unknown);
     return ExitCode::kUsage;
   }

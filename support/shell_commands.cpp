@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <memory>
 #include <numeric>
+#include <span>
 #include <string>
 #include <system_error>
 #include <vector>
@@ -54,6 +55,22 @@ std::size_t apart(const std::string& one, const std::string& other) {
   return row.back();
 }
 
+/// That `word` is none of the commands `known` to the program or command `name`.
+std::string not_among(const std::vector<std::string>& known, const std::string& name,
+                      const std::string& word) {
+  const auto off = [&](const std::string& command) {
+    return command.starts_with(word) ? 0 : apart(word, command);
+  };
+  const auto nearest =
+      std::min_element(known.begin(), known.end(),
+                       [&](const auto& one, const auto& other) { return off(one) < off(other); });
+  const bool meant = off(*nearest) <= kMistyped;
+  return fmt::format("{}: expected a command ({}), got \"{}\"; {}\n", name, fmt::join(known, ", "),
+                     files::shown(word),
+                     meant ? fmt::format("did you mean {}?", *nearest)
+                           : fmt::format("{} --help says what each does", name));
+}
+
 }  // namespace
 
 void add_shell_commands(CLI::App& app, ExitCode& exit_code, const TableOf& table_of) {
@@ -86,22 +103,20 @@ void add_table_command(CLI::App& app) {
       ->callback([&app] { tell("{}\n", json_of(command_table(app))); });
 }
 
-std::string unknown_command(const CLI::App& app, const std::string& word) {
-  if (word.empty() || word.front() == '-') return {};
-  const auto commands = command_table(app).front().commands;
-  if (std::find(commands.begin(), commands.end(), word) != commands.end()) return {};
-  if (word == kTableCommand) return {};
-  const auto off = [&](const std::string& command) {
-    return command.starts_with(word) ? 0 : apart(word, command);
-  };
-  const auto nearest =
-      std::min_element(commands.begin(), commands.end(),
-                       [&](const auto& one, const auto& other) { return off(one) < off(other); });
-  const bool meant = off(*nearest) <= kMistyped;
-  return fmt::format("{}: expected a command ({}), got \"{}\"; {}\n", app.get_name(),
-                     fmt::join(commands, ", "), files::shown(word),
-                     meant ? fmt::format("did you mean {}?", *nearest)
-                           : fmt::format("{} --help says what each does", app.get_name()));
+std::string unknown_command(const CLI::App& app, std::span<char* const> words) {
+  const CLI::App* command = &app;
+  std::string name = app.get_name();
+  for (const std::string word : words) {
+    const auto known = command_table(*command).front().commands;
+    const bool needed = command->get_require_subcommand_min() > 0;  // "eval" takes a set as well
+    if (!needed || word.empty() || word.front() == '-' || word == kTableCommand) return {};
+    if (std::find(known.begin(), known.end(), word) == known.end()) {
+      return not_among(known, name, word);
+    }
+    command = command->get_subcommand(word);
+    name += ' ' + word;
+  }
+  return {};
 }
 
 }  // namespace flowdlo::support

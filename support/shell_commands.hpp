@@ -3,6 +3,7 @@
 
 #include <CLI/App.hpp>
 #include <functional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -23,8 +24,9 @@ void add_shell_commands(CLI::App& app, ExitCode& exit_code,
 inline constexpr const char* kTableCommand = "command-table";
 void add_table_command(CLI::App& app);
 
-/// What to say of a first word that is no command of `app`, with the nearest one; empty where it is
-/// one, or an option.
-[[nodiscard]] std::string unknown_command(const CLI::App& app, const std::string& word);
+/// What to say of the first of a command line's `words` that stands where `app`, or one of its
+/// commands, has commands and is none of them, with the nearest one; empty where there is no such
+/// word before the first option.
+[[nodiscard]] std::string unknown_command(const CLI::App& app, std::span<char* const> words);
 
 }  // namespace flowdlo::support

@@ -165,6 +165,16 @@ TEST(MistypedCommand, IsNamedWithTheNearestOne) {
   EXPECT_THAT(meant("fly"), Not(HasSubstr("did you mean")));
 }
 
+TEST(MistypedCommand, OfACommandIsNamedAsWell) {
+  const TemporaryFolder scratch;
+  const auto mistyped = run_flowdlo(scratch.path(), {"weights", "inf", "robust.fdw"});
+  EXPECT_EQ(mistyped.exit_code, 2);
+  EXPECT_THAT(mistyped.err, HasSubstr("flowdlo weights: expected a command"));
+  EXPECT_THAT(mistyped.err, HasSubstr("got \"inf\"; did you mean info?"));
+  const auto without = run_flowdlo(scratch.path(), {"weights", "--help", "inf"});
+  EXPECT_EQ(without.exit_code, 0);
+}
+
 TEST(Help, ShowsNamesOfChoicesAndTakesNoNumbers) {
   const TemporaryFolder scratch;
   for (const char* command : {"estimate", "bench", "eval", "synth", "mask"}) {
