@@ -83,7 +83,8 @@ std::set<long> numbers(long calls, Thoroughly how, bool below_instance) {
 
 }  // namespace
 
-void walk(const Action& action, Thoroughly how, bool may_differ) {
+void walk(const Action& action, Thoroughly how, bool may_differ,
+          const std::set<std::string>& only) {
   std::map<std::string, long> calls;
   std::string expected;
   for (const bool layers : {false, true}) {
@@ -102,7 +103,7 @@ void walk(const Action& action, Thoroughly how, bool may_differ) {
   long failures = 0;
   int functions = 0;
   for (const auto& [function, results, layers] : fallible()) {
-    if (calls[function] == 0) continue;
+    if (calls[function] == 0 || !(only.empty() || only.count(function) > 0)) continue;
     ++functions;
     for (const long number : numbers(calls[function], how, !layers)) {
       for (const VkResult result : results) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <set>
 #include <string>
 
 #include "flowdlo/result.hpp"
@@ -20,7 +21,8 @@ enum class Thoroughly { kSamples, kFirstAlone };
 /// Fails each function that gives a VkResult, with every result that the specification lets it
 /// have. What comes is an Error that is no defect of ours, or the bits that come without a failure
 /// (`may_differ`: or others); nothing is left alive; and when a function is through, the next time
-/// nothing fails and the bits are right.
-void walk(const Action& action, Thoroughly how, bool may_differ = false);
+/// nothing fails and the bits are right. Where `only` names functions, the others do not fail.
+void walk(const Action& action, Thoroughly how, bool may_differ = false,
+          const std::set<std::string>& only = {});
 
 }  // namespace flowdlo::testing
