@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "c_api/c99_caller.h"
+#include "c_api/c_values.hpp"
 #include "c_api/last_error.hpp"
 #include "c_api/sized.hpp"
 #include "flowdlo/estimator.hpp"
@@ -26,17 +27,15 @@
 namespace flowdlo {
 namespace {
 
+using testing::c_frame;
+using testing::empty_estimate;
+using testing::Handle;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using testing::RingFrame;
 using ::testing::SizeIs;
 using ::testing::StartsWith;
 using testing::WaveFrame;
-
-struct Destroy {
-  void operator()(flowdlo_estimator* estimator) const { flowdlo_estimator_destroy(estimator); }
-};
-using Handle = std::unique_ptr<flowdlo_estimator, Destroy>;
 
 flowdlo_config config_with(const char* weights) {
   flowdlo_config config;
@@ -59,29 +58,6 @@ Handle make(const flowdlo_config& config) {
 }
 
 Handle make() { return make(config_with(FLOWDLO_WEIGHTS)); }
-
-flowdlo_frame c_frame(const Frame& frame) {
-  flowdlo_frame out;
-  EXPECT_EQ(flowdlo_frame_init(&out, sizeof(out)), FLOWDLO_OK);
-  out.depth = {frame.depth_m.data(), 0, 0, FLOWDLO_PIXEL_F32, 0};
-  out.mask = {frame.mask.data(), 0, 0, FLOWDLO_PIXEL_U8, 0};
-  if (!frame.color_bgr.empty()) {
-    out.color = {frame.color_bgr.data(), 0, 0, FLOWDLO_PIXEL_BGR8, 0};
-  }
-  out.width = frame.width;
-  out.height = frame.height;
-  out.fx = frame.intrinsics.fx;
-  out.fy = frame.intrinsics.fy;
-  out.cx = frame.intrinsics.cx;
-  out.cy = frame.intrinsics.cy;
-  return out;
-}
-
-flowdlo_estimate empty_estimate() {
-  flowdlo_estimate estimate;
-  EXPECT_EQ(flowdlo_estimate_init(&estimate, sizeof(estimate)), FLOWDLO_OK);
-  return estimate;
-}
 
 Estimate reference(const char* weights, const Frame& frame, int steps = 2, int draws = 2) {
   auto estimator = Estimator::create(

@@ -7,10 +7,10 @@
 #include <cstdint>
 #include <cstring>
 #include <limits>
-#include <memory>
 #include <stdexcept>
 #include <vector>
 
+#include "c_api/c_values.hpp"
 #include "flowdlo/estimator.hpp"
 #include "flowdlo/flowdlo.h"
 #include "support/wave_frame.hpp"
@@ -18,6 +18,9 @@
 namespace flowdlo {
 namespace {
 
+using testing::c_frame;
+using testing::empty_estimate;
+using testing::Handle;
 using ::testing::HasSubstr;
 using testing::WaveFrame;
 
@@ -44,11 +47,6 @@ struct TwoWaves {
   [[nodiscard]] Frame frame() const { return {width, height, camera, depth_m, mask, {}}; }
 };
 
-struct Destroy {
-  void operator()(flowdlo_estimator* estimator) const { flowdlo_estimator_destroy(estimator); }
-};
-using Handle = std::unique_ptr<flowdlo_estimator, Destroy>;
-
 Handle make(int ropes) {
   flowdlo_config config;
   flowdlo_estimator* estimator = nullptr;
@@ -71,26 +69,6 @@ Estimator make_cpp(int ropes) {
       {.weights = FLOWDLO_WEIGHTS, .device = "cpu", .euler_steps = 1, .draws = 1, .ropes = ropes});
   if (!estimator) throw std::runtime_error(estimator.error().message);
   return *std::move(estimator);
-}
-
-flowdlo_frame c_frame(const Frame& frame) {
-  flowdlo_frame out;
-  EXPECT_EQ(flowdlo_frame_init(&out, sizeof(out)), FLOWDLO_OK);
-  out.depth = {frame.depth_m.data(), 0, 0, FLOWDLO_PIXEL_F32, 0};
-  out.mask = {frame.mask.data(), 0, 0, FLOWDLO_PIXEL_U8, 0};
-  out.width = frame.width;
-  out.height = frame.height;
-  out.fx = frame.intrinsics.fx;
-  out.fy = frame.intrinsics.fy;
-  out.cx = frame.intrinsics.cx;
-  out.cy = frame.intrinsics.cy;
-  return out;
-}
-
-flowdlo_estimate empty_estimate() {
-  flowdlo_estimate estimate;
-  EXPECT_EQ(flowdlo_estimate_init(&estimate, sizeof(estimate)), FLOWDLO_OK);
-  return estimate;
 }
 
 flowdlo_hints no_hints() {
