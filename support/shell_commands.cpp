@@ -107,9 +107,9 @@ std::string unknown_command(const CLI::App& app, std::span<char* const> words) {
   const CLI::App* command = &app;
   std::string name = app.get_name();
   for (const std::string word : words) {
-    const auto known = command_table(*command).front().commands;
     const bool needed = command->get_require_subcommand_min() > 0;  // "eval" takes a set as well
     if (!needed || word.empty() || word.front() == '-' || word == kTableCommand) return {};
+    const auto known = command_table(*command).front().commands;
     if (std::find(known.begin(), known.end(), word) == known.end()) {
       return not_among(known, name, word);
     }
