@@ -376,10 +376,10 @@ typedef struct flowdlo_crossing {
 /* Fills `crossing` with zeros. `struct_size` is sizeof(flowdlo_crossing). */
 FLOWDLO_EXPORT flowdlo_status flowdlo_crossing_init(flowdlo_crossing* crossing, size_t struct_size);
 
-/* Estimates each rope of the frame on its own, flowdlo_config.ropes of them, and says how many ropes
- * and crossings there are. `crossings` may be NULL. They stay with the estimator until its next
- * estimate. Fails as flowdlo_estimator_estimate does, and with FLOWDLO_NO_PATH where there are fewer
- * ropes than asked for, or more than 32. */
+/* Estimates each rope of the frame on its own, flowdlo_config.ropes of them, and says how many
+ * ropes and crossings there are. `crossings` may be NULL. They stay with the estimator until its
+ * next estimate. Fails as flowdlo_estimator_estimate does, and with FLOWDLO_NO_PATH where there are
+ * fewer ropes than asked for, or more than 32. */
 FLOWDLO_EXPORT flowdlo_status flowdlo_estimator_estimate_ropes(flowdlo_estimator* estimator,
                                                                const flowdlo_frame* frame,
                                                                int32_t* ropes, int32_t* crossings);

@@ -118,10 +118,9 @@ Result<void> Run::prepare() {
 }
 
 void Run::validate() {
-  const auto groups =
-      validate_model(state_.best(), validation_.records, view_of(state_),
-                     state_.recipe.schedule.euler_steps,
-                     compute_type(state_.recipe.optimizer.precision, device_), device_);
+  const auto groups = validate_model(
+      state_.best(), validation_.records, view_of(state_), state_.recipe.schedule.euler_steps,
+      compute_type(state_.recipe.optimizer.precision, device_), device_);
   log_->add(state_.step, groups);
   state_.validation = table_of(groups);
   note(fmt::format("step {}: validation\n{}", state_.step, state_.validation));

@@ -1,4 +1,5 @@
-// Paths on scenes with truth: which share of each kind has to be right is flowdlo-lab scenes report's.
+// Paths on scenes with truth: which share of each kind has to be right is flowdlo-lab scenes
+// report's.
 #include "scene/scene.hpp"
 
 #include <gtest/gtest.h>
