@@ -59,12 +59,15 @@ BlockMap blocks_near(const image::Image<float>& mask) {
   return map;
 }
 
-BlockMap cut(const BlockMap& map, const image::Rect& part) {
+BlockMap those(const BlockMap& map, const std::function<bool(const image::Point&)>& wanted) {
   BlockMap result{map.columns, map.rows, {}, {}};
-  std::copy_if(map.blocks.begin(), map.blocks.end(), std::back_inserter(result.blocks),
-               [&](const image::Point& block) { return part.contains(block); });
+  std::copy_if(map.blocks.begin(), map.blocks.end(), std::back_inserter(result.blocks), wanted);
   number(result);
   return result;
+}
+
+BlockMap cut(const BlockMap& map, const image::Rect& part) {
+  return those(map, [&](const image::Point& block) { return part.contains(block); });
 }
 
 }  // namespace flowdlo::field

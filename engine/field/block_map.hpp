@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <vector>
 
 #include "image/image.hpp"
@@ -34,6 +35,10 @@ struct BlockMap {
 
 /// `mask`: the rope's share of each pixel of a region.
 [[nodiscard]] BlockMap blocks_near(const image::Image<float>& mask);
+
+/// The blocks of `map` that are `wanted` alone, by their column and row.
+[[nodiscard]] BlockMap those(const BlockMap& map,
+                             const std::function<bool(const image::Point&)>& wanted);
 
 /// The blocks of `map` within `part`, columns and rows, alone.
 [[nodiscard]] BlockMap cut(const BlockMap& map, const image::Rect& part);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "field/channel.hpp"
+#include "field/near_parts.hpp"
 #include "field/sight.hpp"
 #include "geometry/mask_box.hpp"
 
@@ -33,6 +34,11 @@ float seen_width(const Channels& field) {
   const auto middle = widths.begin() + static_cast<std::ptrdiff_t>(widths.size() / 2);
   std::nth_element(widths.begin(), middle, widths.end());
   return std::exp2(*middle);
+}
+
+/// The rope's width that a region was made for, pixels of the frame.
+float expected_width_px(const Region& region) {
+  return kRope_px / std::sqrt(region.scale.x() * region.scale.y());
 }
 
 Error too_large(const image::Rect& box, float rope_width_px) {
@@ -75,11 +81,26 @@ Result<View> view_of(const Frame& frame, const image::Rect& box, float rope_widt
   return too_large(box, rope_width_px);
 }
 
+/// Looks once more, less magnified, where the rope is much wider than `seen` expects.
+Result<void> look_at_near_parts(const Frame& frame, const image::Rect& box, Network& network,
+                                StrandField& seen) {
+  const float octaves = wide_octaves(seen.channels);
+  if (octaves <= 0) return {};
+  auto view = view_of(frame, box, std::exp2(octaves) * expected_width_px(seen.region));
+  if (!view) return view.error();
+  const NearParts parts(seen.channels, octaves);
+  const BlockMap blocks = parts.needed(view->blocks, view->region, seen.region);
+  if (blocks.blocks.empty()) return {};
+  auto channels = network.see(input_of(view->sight, blocks), blocks);
+  if (!channels) return channels.error();
+  blend(seen, {view->region, *std::move(channels)}, parts, octaves);
+  return {};
+}
+
 }  // namespace
 
 float width_px(const StrandField& seen) {
-  const float scale = std::sqrt(seen.region.scale.x() * seen.region.scale.y());
-  return seen_width(seen.channels) * kRope_px / scale;
+  return seen_width(seen.channels) * expected_width_px(seen.region);
 }
 
 Result<StrandField> see(const Frame& frame, float rope_width_px, Network& network) {
@@ -104,6 +125,8 @@ Result<StrandField> see(const Frame& frame, float rope_width_px, Network& networ
     if (share >= kNarrow) break;
     width_px *= share;
   }
+  const auto nearer = look_at_near_parts(frame, box, network, result);
+  if (!nearer) return nearer.error();
   return result;
 }
 
