@@ -12,6 +12,7 @@ else()
   # The command and the tests use fmt's own library beside rooms of this one: names that both may have.
   # flowdlo.map keeps them within libflowdlo.so.
   target_compile_definitions(flowdlo_fmt PUBLIC FMT_SHARED)
+  set(FLOWDLO_FMT_HEADER <fmt/format.h>)  # the same for all: it can be precompiled outside the rooms
 endif()
 set_target_properties(flowdlo_fmt PROPERTIES POSITION_INDEPENDENT_CODE ON
                                              CXX_VISIBILITY_PRESET hidden

@@ -1,4 +1,5 @@
 # A room is a folder of engine/ and one object library: flowdlo_room(path SOURCES ... DEPENDS ...).
+# OWN_FLAGS: its compiler's flags are such that it reads its headers itself.
 # Includes are written from engine/: #include "path/path.hpp".
 
 set(FLOWDLO_WARNINGS -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion
@@ -27,18 +28,36 @@ if(FLOWDLO_FUZZ)
     $<$<BOOL:$<TARGET_PROPERTY:FLOWDLO_ARITHMETIC>>:-fno-sanitize=all>)
 endif()
 
+# flowdlo_precompiled(TARGET HEADER ...): a target of no code whose headers are read once for all that
+# are built with the same flags.
+function(flowdlo_precompiled target)
+  add_library(${target} OBJECT "${PROJECT_SOURCE_DIR}/cmake/no_code.cpp")
+  target_link_libraries(${target} PRIVATE flowdlo_options)
+  target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>)  # for ccache
+  target_precompile_headers(${target} PRIVATE ${ARGN})
+endfunction()
+
+# flowdlo_reuse_headers(TARGET FROM): TARGET takes the headers that FROM has read.
+function(flowdlo_reuse_headers target from)
+  target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>)
+  target_precompile_headers(${target} REUSE_FROM ${from})
+endfunction()
+
 define_property(GLOBAL PROPERTY FLOWDLO_ROOMS BRIEF_DOCS "Object libraries that make up flowdlo")
 
 function(flowdlo_room name)
-  cmake_parse_arguments(ROOM "" "" "SOURCES;DEPENDS" ${ARGN})
+  cmake_parse_arguments(ROOM "OWN_FLAGS" "" "SOURCES;DEPENDS" ${ARGN})
   set(target flowdlo_${name})
   add_library(${target} OBJECT ${ROOM_SOURCES})
   target_include_directories(${target} PUBLIC "${PROJECT_SOURCE_DIR}/include"
                                               "${PROJECT_BINARY_DIR}/include"
                                               "${PROJECT_SOURCE_DIR}/engine")
-  target_link_libraries(${target} PUBLIC flowdlo_options Eigen3::Eigen ${ROOM_DEPENDS})
+  target_link_libraries(${target} PUBLIC flowdlo_options flowdlo_fmt Eigen3::Eigen ${ROOM_DEPENDS})
   set_target_properties(${target} PROPERTIES POSITION_INDEPENDENT_CODE ON
                                              CXX_VISIBILITY_PRESET hidden
                                              VISIBILITY_INLINES_HIDDEN ON)
+  if(NOT ROOM_OWN_FLAGS AND NOT FLOWDLO_FUZZ)  # there each room has what is watched in it
+    flowdlo_reuse_headers(${target} flowdlo_room_headers)
+  endif()
   set_property(GLOBAL APPEND PROPERTY FLOWDLO_ROOMS ${target})
 endfunction()

@@ -31,22 +31,6 @@ py::array_t<Value> array_of(std::vector<Value>&& values, const std::vector<py::s
   return py::array_t<Value>(sizes, data, keeper);
 }
 
-const char* name_of(DeviceKind kind) {
-  switch (kind) {
-    case DeviceKind::kDiscreteGpu:
-      return "discrete_gpu";
-    case DeviceKind::kIntegratedGpu:
-      return "integrated_gpu";
-    case DeviceKind::kVirtualGpu:
-      return "virtual_gpu";
-    case DeviceKind::kCpu:
-      return "cpu";
-    case DeviceKind::kOther:
-      return "other";
-  }
-  return "other";
-}
-
 py::dict dict_of(const OneRope& one) {
   py::list doubts;
   for (const Doubt doubt : one.doubts) doubts.append(name_of(doubt));

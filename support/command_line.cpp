@@ -5,6 +5,7 @@
 #include <exception>
 #include <span>
 #include <sstream>
+#include <utility>
 
 #include "shell_commands.hpp"
 #include "terminal.hpp"
@@ -40,6 +41,15 @@ ExitCode run(CLI::App& app, int argc, char** argv, const ExitCode& exit_code) {
 }
 
 }  // namespace
+
+CLI::App* add_command(CLI::App& parent, const std::string& name, const std::string& description) {
+  return parent.add_subcommand(name, description);
+}
+
+void set_action(CLI::App& command, ExitCode& exit_code, std::function<int()> action) {
+  command.callback(
+      [&exit_code, action = std::move(action)] { exit_code = static_cast<ExitCode>(action()); });
+}
 
 int run_command_line(CLI::App& app, int argc, char** argv, const ExitCode& exit_code) {
   return finished(app.get_name(), static_cast<int>(run(app, argc, argv, exit_code)));

@@ -1,6 +1,6 @@
 #include "command_table.hpp"
 
-#include <CLI/CLI.hpp>
+#include <CLI/App.hpp>
 #include <algorithm>
 #include <cctype>
 #include <nlohmann/json.hpp>

@@ -1,7 +1,7 @@
 // Model options: the part of Config that every command which estimates takes from its arguments.
 #pragma once
 
-#include <CLI/CLI.hpp>
+#include <CLI/App.hpp>
 
 #include "flowdlo/config.hpp"
 

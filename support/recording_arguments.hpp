@@ -1,7 +1,7 @@
 // Recording arguments: the options of every command that takes ROS 1 bags for frames.
 #pragma once
 
-#include <CLI/CLI.hpp>
+#include <CLI/App.hpp>
 #include <string>
 #include <vector>
 

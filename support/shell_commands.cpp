@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <CLI/CLI.hpp>
+#include <CLI/App.hpp>
 #include <algorithm>
 #include <filesystem>
 #include <memory>
@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "choice.hpp"
+#include "command_line.hpp"
 #include "command_table.hpp"
 #include "completion.hpp"
 #include "durability_choice.hpp"
@@ -75,7 +76,7 @@ std::string not_among(const std::vector<std::string>& known, const std::string& 
 
 void add_shell_commands(CLI::App& app, ExitCode& exit_code, const TableOf& table_of) {
   auto shell = std::make_shared<Shell>(Shell::kBash);
-  auto* words = app.add_subcommand("completion", "Print a shell's completion script");
+  auto* words = add_command(app, "completion", "Print a shell's completion script");
   words
       ->add_option("SHELL", *shell,
                    "Which one: source what it prints, or put it where the shell looks")
@@ -87,7 +88,7 @@ void add_shell_commands(CLI::App& app, ExitCode& exit_code, const TableOf& table
       [shell, &app, table_of] { tell("{}", completion(*shell, app.get_name(), table_of(app))); });
 
   auto folder = std::make_shared<std::filesystem::path>();
-  auto* pages = app.add_subcommand("manual", "Write the manual pages");
+  auto* pages = add_command(app, "manual", "Write the manual pages");
   pages->add_option("DIR", *folder, "Where they go: man -l DIR/flowdlo.1 shows one")->required();
   pages->callback([folder, &app, &exit_code, table_of] {
     const auto written = write_manual(*folder, app, table_of(app));
@@ -98,7 +99,7 @@ void add_shell_commands(CLI::App& app, ExitCode& exit_code, const TableOf& table
 }
 
 void add_table_command(CLI::App& app) {
-  app.add_subcommand(kTableCommand, "The commands and their options as JSON")
+  add_command(app, kTableCommand, "The commands and their options as JSON")
       ->group("")
       ->callback([&app] { tell("{}\n", json_of(command_table(app))); });
 }

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <sys/resource.h>
 
-#include <CLI/CLI.hpp>
+#include <CLI/App.hpp>
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "bench_report.hpp"
+#include "command_line.hpp"
 #include "durability_choice.hpp"
 #include "files/shown_name.hpp"
 #include "files/whole_file.hpp"
@@ -167,7 +168,7 @@ support::ExitCode run(const BenchOptions& options) {
 
 void add_bench_command(CLI::App& app, support::ExitCode& exit_code) {
   auto options = std::make_shared<BenchOptions>();
-  auto* command = app.add_subcommand("bench", "Milliseconds a frame, stage by stage");
+  auto* command = support::add_command(app, "bench", "Milliseconds a frame, stage by stage");
   command->add_option("FRAME", options->frame,
                       "A frame folder [the one that ships], or a folder of them");
   support::add_model_options(*command, options->config);

@@ -2,11 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
+#include <CLI/App.hpp>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "command_line.hpp"
 #include "files/shown_name.hpp"
 #include "flowdlo/devices.hpp"
 #include "terminal.hpp"
@@ -16,22 +17,6 @@ namespace flowdlo::tools {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-const char* name_of(DeviceKind kind) {
-  switch (kind) {
-    case DeviceKind::kDiscreteGpu:
-      return "discrete GPU";
-    case DeviceKind::kIntegratedGpu:
-      return "integrated GPU";
-    case DeviceKind::kVirtualGpu:
-      return "virtual GPU";
-    case DeviceKind::kCpu:
-      return "CPU driver";
-    case DeviceKind::kOther:
-      return "other";
-  }
-  return "other";
-}
 
 std::string verdict(const DeviceReport& device) {
   if (!device.self_test_run) return "not run";
@@ -107,9 +92,9 @@ void print_json(const DeviceSurvey& survey) {
 
 void add_devices_command(CLI::App& app) {
   auto as_json = std::make_shared<bool>(false);
-  auto* command = app.add_subcommand("devices",
-                                     "Vulkan devices, their self-tests, and which "
-                                     "one --device auto takes");
+  auto* command = support::add_command(app, "devices",
+                                       "Vulkan devices, their self-tests, and which "
+                                       "one --device auto takes");
   command->alias("doctor");
   command->add_flag("--json", *as_json, "Print JSON");
   command->callback([as_json] {

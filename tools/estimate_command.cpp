@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
+#include <CLI/App.hpp>
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "choice.hpp"
+#include "command_line.hpp"
 #include "durability_choice.hpp"
 #include "files/shown_name.hpp"
 #include "flowdlo/estimator.hpp"
@@ -240,7 +241,7 @@ CLI::Validator ends_in_mp4() {
 
 void add_estimate_command(CLI::App& app, support::ExitCode& exit_code) {
   auto options = std::make_shared<EstimateOptions>();
-  auto* command = app.add_subcommand("estimate", "Frames in, centerlines out");
+  auto* command = support::add_command(app, "estimate", "Frames in, centerlines out");
   command
       ->add_option("FRAME", options->frames,
                    "Frame folders, folders of frame folders, or ROS 1 bags")

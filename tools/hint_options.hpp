@@ -1,7 +1,7 @@
 // HintOptions: what is known beside a frame, from the command line.
 #pragma once
 
-#include <CLI/CLI.hpp>
+#include <CLI/App.hpp>
 #include <filesystem>
 #include <string>
 #include <vector>

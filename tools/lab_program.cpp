@@ -5,13 +5,14 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <CLI/CLI.hpp>
+#include <CLI/App.hpp>
 #include <algorithm>
 #include <array>
 #include <cerrno>
 #include <filesystem>
 #include <system_error>
 
+#include "command_line.hpp"
 #include "exit_code.hpp"
 #include "files/shown_name.hpp"
 #include "shell_commands.hpp"
@@ -81,7 +82,7 @@ std::string said_by_lab() {
 }  // namespace
 
 void add_lab_commands(CLI::App& app) {
-  for (const auto& [name, description] : kCommands) app.add_subcommand(name, description);
+  for (const auto& [name, description] : kCommands) support::add_command(app, name, description);
 }
 
 bool is_for_lab(int argc, char** argv) { return argc > 1 && is_lab_command(argv[1]); }

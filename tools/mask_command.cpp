@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
+#include <CLI/App.hpp>
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "command_line.hpp"
 #include "durability_choice.hpp"
 #include "files/folder_update.hpp"
 #include "files/shown_name.hpp"
@@ -255,8 +256,8 @@ void add_ways(CLI::App& command, MaskOptions& options) {
 
 void add_mask_command(CLI::App& app, support::ExitCode& exit_code) {
   auto options = std::make_shared<MaskOptions>();
-  auto* command = app.add_subcommand(
-      "mask",
+  auto* command = support::add_command(
+      app, "mask",
       "Make mask.png for frames or pictures: what --color, --table and --click have in "
       "common");
   command

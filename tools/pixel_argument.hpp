@@ -1,7 +1,7 @@
 // PixelArgument: a place in an image as an option says it, "column,row".
 #pragma once
 
-#include <CLI/CLI.hpp>
+#include <CLI/App.hpp>
 #include <optional>
 #include <string_view>
 

@@ -1,7 +1,7 @@
 // RopeOptions: how many ropes a frame shows, from the command line.
 #pragma once
 
-#include <CLI/CLI.hpp>
+#include <CLI/App.hpp>
 
 #include "flowdlo/config.hpp"
 

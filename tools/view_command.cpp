@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <CLI/CLI.hpp>
+#include <CLI/App.hpp>
 #include <array>
 #include <atomic>
 #include <csignal>
@@ -14,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include "command_line.hpp"
 #include "files/shown_name.hpp"
 #include "flowdlo/estimator.hpp"
 #include "frame_list.hpp"
@@ -128,8 +129,8 @@ support::ExitCode run(ViewOptions& options) {
 
 void add_view_command(CLI::App& app, support::ExitCode& exit_code) {
   auto options = std::make_shared<ViewOptions>();
-  auto* command = app.add_subcommand(
-      "view",
+  auto* command = support::add_command(
+      app, "view",
       "Look at frames in a browser of this computer: image, strand field, other hypotheses, and "
       "the curve in space");
   command

@@ -2,11 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
+#include <CLI/App.hpp>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
 
+#include "command_line.hpp"
 #include "files/shown_name.hpp"
 #include "flowdlo/weights.hpp"
 #include "terminal.hpp"
@@ -48,28 +49,29 @@ support::ExitCode outcome(const Result<void>& done, const Files& paths) {
 
 void add_weights_command(CLI::App& app, support::ExitCode& exit_code) {
   auto files = std::make_shared<Files>();
-  auto* command = app.add_subcommand("weights", "Look into weights files and convert them");
+  auto* command = support::add_command(app, "weights", "Look into weights files and convert them");
   command->require_subcommand(1);
 
-  auto* info = command->add_subcommand("info", "Metadata, tensor names, shapes and checksum");
+  auto* info =
+      support::add_command(*command, "info", "Metadata, tensor names, shapes and checksum");
   info->add_option("FILE", files->input, "A .fdw file")->required();
   info->callback([files, &exit_code] { exit_code = print_info(files->input); });
 
-  auto* to = command->add_subcommand("export", "From .fdw to .safetensors");
+  auto* to = support::add_command(*command, "export", "From .fdw to .safetensors");
   to->add_option("FILE", files->input, "A .fdw file")->required();
   to->add_option("OUT", files->output, "The .safetensors file to write")->required();
   to->callback([files, &exit_code] {
     exit_code = outcome(export_safetensors(files->input, files->output), *files);
   });
 
-  auto* from = command->add_subcommand("import", "From .safetensors to .fdw");
+  auto* from = support::add_command(*command, "import", "From .safetensors to .fdw");
   from->add_option("IN", files->input, "A .safetensors file")->required();
   from->add_option("OUT", files->output, "The .fdw file to write")->required();
   from->callback([files, &exit_code] {
     exit_code = outcome(import_safetensors(files->input, files->output), *files);
   });
 
-  auto* fast = command->add_subcommand("set-fast", "Say what --quality fast stands for");
+  auto* fast = support::add_command(*command, "set-fast", "Say what --quality fast stands for");
   fast->add_option("FILE", files->input, "A .fdw file")->required();
   fast->add_option("OUT", files->output, "The .fdw file to write; may be FILE")->required();
   fast->add_option("--steps", files->fast_steps, "Euler steps; 0: as full")

@@ -84,8 +84,10 @@ void write_stored(const Device& device, const std::filesystem::path& folder, std
   std::error_code problem;
   std::filesystem::create_directories(folder, problem);
   const Header header = header_for(device, kind, content);
-  std::string bytes(reinterpret_cast<const char*>(&header), sizeof(header));
-  bytes.append(content.begin(), content.end());
+  std::string bytes;
+  bytes.reserve(sizeof(header) + content.size());
+  bytes.append(reinterpret_cast<const char*>(&header), sizeof(header));
+  bytes.append(content.data(), content.size());
   // Its checksum tells a file that a power cut has torn: there is no need to wait for the disk.
   files::StagedFiles staged(Durability::kUnsynced);
   if (staged.add(file_for(device, folder, kind), bytes)) (void)staged.commit();

@@ -11,6 +11,24 @@ namespace flowdlo {
 
 enum class DeviceKind { kDiscreteGpu, kIntegratedGpu, kVirtualGpu, kCpu, kOther };
 
+/// "discrete_gpu", "integrated_gpu", "virtual_gpu", "cpu" (a driver that runs on the CPU) or
+/// "other".
+[[nodiscard]] constexpr const char* name_of(DeviceKind kind) {
+  switch (kind) {
+    case DeviceKind::kDiscreteGpu:
+      return "discrete_gpu";
+    case DeviceKind::kIntegratedGpu:
+      return "integrated_gpu";
+    case DeviceKind::kVirtualGpu:
+      return "virtual_gpu";
+    case DeviceKind::kCpu:
+      return "cpu";
+    case DeviceKind::kOther:
+      break;
+  }
+  return "other";
+}
+
 struct DeviceReport {
   std::string name;  ///< as the driver says it
   std::string uuid;  ///< 32 hexadecimal digits

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
+#include <CLI/App.hpp>
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
@@ -14,6 +14,7 @@
 
 #include "command/build_sum.hpp"
 #include "command/eval_outputs.hpp"
+#include "command_line.hpp"
 #include "durability_choice.hpp"
 #include "eval/contenders.hpp"
 #include "eval/error_overlay.hpp"
@@ -293,7 +294,8 @@ support::ExitCode run_merge(const MergeOptions& options) {
 }
 
 CLI::App* add_merge_command(CLI::App& eval_command, MergeOptions& options) {
-  auto* command = eval_command.add_subcommand("merge", "Rows of shards in, tables and plots out");
+  auto* command =
+      support::add_command(eval_command, "merge", "Rows of shards in, tables and plots out");
   command->add_option("DIR", options.sources, "The --out folders of the shards, or row files")
       ->required();
   command->add_option("--out", options.out, "For tables, rows, figures and report.html")
@@ -308,7 +310,7 @@ CLI::App* add_merge_command(CLI::App& eval_command, MergeOptions& options) {
 
 void add_eval_command(CLI::App& app, support::ExitCode& exit_code) {
   auto options = std::make_shared<EvalOptions>();
-  auto* command = app.add_subcommand("eval", "Frames with truth in, tables and plots out");
+  auto* command = support::add_command(app, "eval", "Frames with truth in, tables and plots out");
   command->add_option("DATASET", options->frames,
                       "Folders of frame folders, frame folders, or ROS 1 bags");
   command->add_option("--out", options->out, "For tables, rows, figures and report.html")

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
+#include <CLI/App.hpp>
 #include <algorithm>
 #include <atomic>
 #include <cstdio>
@@ -15,6 +15,7 @@
 #include "choice.hpp"
 #include "command/contact_sheet.hpp"
 #include "command/synth_folder.hpp"
+#include "command_line.hpp"
 #include "progress_bar.hpp"
 #include "synth/synthetic_frame.hpp"
 #include "terminal.hpp"
@@ -196,7 +197,7 @@ support::ExitCode run(const SynthOptions& options) {
 
 void add_synth_command(CLI::App& app, support::ExitCode& exit_code) {
   auto options = std::make_shared<SynthOptions>();
-  auto* command = app.add_subcommand("synth", "Synthetic frames with truth");
+  auto* command = support::add_command(app, "synth", "Synthetic frames with truth");
   command->add_option("OUT", options->out, "Frame folders go to OUT/<index>_<scenario>/");
   command
       ->add_option("--split", options->split,

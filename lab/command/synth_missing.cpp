@@ -1,16 +1,18 @@
 // The synth command of a build without Embree.
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
+#include <CLI/App.hpp>
 #include <cstdio>
 
 #include "command/synth_command.hpp"
+#include "command_line.hpp"
 #include "terminal.hpp"
 
 namespace flowdlo::lab {
 
 void add_synth_command(CLI::App& app, support::ExitCode& exit_code) {
-  auto* command = app.add_subcommand("synth", "Synthetic frames with truth (not in this build)");
+  auto* command =
+      support::add_command(app, "synth", "Synthetic frames with truth (not in this build)");
   command->allow_extras();
   command->callback([&exit_code] {
     support::tell_error(

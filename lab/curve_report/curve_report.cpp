@@ -1,6 +1,6 @@
 // flowdlo-lab curve-report: how far the true centerline of drawn scenes is from the chords between
 // its 64 nodes, and from the smooth curve through them.
-#include <CLI/CLI.hpp>
+#include <CLI/App.hpp>
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "command/report_commands.hpp"
+#include "command_line.hpp"
 #include "flowdlo/estimate.hpp"
 #include "geometry/camera.hpp"
 #include "scene/scene.hpp"
@@ -103,8 +104,8 @@ namespace flowdlo::lab {
 
 void add_curve_report(CLI::App& program, support::ExitCode& exit_code) {
   auto options = std::make_shared<Options>();
-  auto& app = *program.add_subcommand(
-      "curve-report",
+  auto& app = *support::add_command(
+      program, "curve-report",
       "The true centerline of drawn scenes beside 64 chords and beside Estimate::curve");
   app.add_option("--scenes", options->scenes, "Of each kind")
       ->capture_default_str()
@@ -114,8 +115,7 @@ void add_curve_report(CLI::App& program, support::ExitCode& exit_code) {
   app.add_option("--points", options->points, "Of the curve")
       ->capture_default_str()
       ->check(CLI::Range(2, flowdlo::kMostCurvePoints));
-  app.callback(
-      [options, &exit_code] { exit_code = static_cast<support::ExitCode>(::report(*options)); });
+  support::set_action(app, exit_code, [options] { return ::report(*options); });
 }
 
 }  // namespace flowdlo::lab

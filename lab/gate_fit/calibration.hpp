@@ -17,10 +17,12 @@ struct Outcome {
   double lead = 0;                    ///< gate::lead_elsewhere
 };
 
-/// Fills closeness, node_error and sigma_share of `weights`. The last is as large as it has to be
-/// for the nodes within one and within two sigma_m, of those of the first `counted` scenes that
-/// nothing was fitted on, to be 68 % and 95 %, or to miss them on either side; too narrow counts a
-/// quarter more than too wide.
+/// Fills closeness, node_error and sigma_share of `weights`. Twice sigma_m is the length that a
+/// node's error stays below with the probability sigma_share, as node_error predicts it.
+/// Sigma_share is chosen on the first `counted` scenes, with fits that did not see the scene that
+/// they judge. There the share of nodes within sigma_m should be 68 %, and the share within twice
+/// sigma_m 95 %. One number seldom meets both: the chosen one is as far above the first as it is
+/// below the second, or the other way round, where the distance from 95 % counts 1.25 times.
 void calibrate(const std::vector<GateSample>& samples, const std::vector<Outcome>& outcomes,
                std::size_t counted, gate::GateWeights& weights);
 

@@ -3,7 +3,7 @@
 // gate-fit report: what the gate is worth on frames that it was not fitted on.
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
+#include <CLI/App.hpp>
 #include <atomic>
 #include <cstdio>
 #include <memory>
@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "command/report_commands.hpp"
+#include "command_line.hpp"
 #include "estimator/device_choice.hpp"
 #include "field/network.hpp"
 #include "flowdlo/weights.hpp"
@@ -324,11 +325,11 @@ void add_options(CLI::App& command, Options& options) {
 namespace flowdlo::lab {
 
 void add_gate_fit(CLI::App& program, support::ExitCode& exit_code) {
-  auto& app =
-      *program.add_subcommand("gate-fit", "The calibrated gate on synthetic frames with truth");
+  auto& app = *support::add_command(program, "gate-fit",
+                                    "The calibrated gate on synthetic frames with truth");
   app.require_subcommand(1);
   auto fitting = std::make_shared<Options>();
-  auto* fit_command = app.add_subcommand("fit", "Fit to a model on training frames");
+  auto* fit_command = support::add_command(app, "fit", "Fit to a model on training frames");
   add_options(*fit_command, *fitting);
   fit_command
       ->add_option("--more", fitting->more,
@@ -339,21 +340,19 @@ void add_gate_fit(CLI::App& program, support::ExitCode& exit_code) {
       ->type_name("FILE");
   fit_command->add_flag("--keep-choice", fitting->keep_choice,
                         "Fit confidence and sigma_m alone, to what the compiled constants choose");
-  fit_command->callback(
-      [fitting, &exit_code] { exit_code = static_cast<support::ExitCode>(::fit(*fitting)); });
+  support::set_action(*fit_command, exit_code, [fitting] { return ::fit(*fitting); });
 
   auto reporting = std::make_shared<Options>();
   reporting->part = "validation";
   reporting->first = 0;
   reporting->scenes = 300;
-  auto* report_command = app.add_subcommand("report", "What the compiled constants are worth");
+  auto* report_command =
+      support::add_command(app, "report", "What the compiled constants are worth");
   add_options(*report_command, *reporting);
   report_command->add_option("--part", reporting->part, "training or validation")
       ->check(CLI::IsMember({"training", "validation"}))
       ->capture_default_str();
-  report_command->callback([reporting, &exit_code] {
-    exit_code = static_cast<support::ExitCode>(::report(*reporting));
-  });
+  support::set_action(*report_command, exit_code, [reporting] { return ::report(*reporting); });
 }
 
 }  // namespace flowdlo::lab

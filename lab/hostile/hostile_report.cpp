@@ -4,7 +4,7 @@
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
-#include <CLI/CLI.hpp>
+#include <CLI/App.hpp>
 
 #include <algorithm>
 #include <array>
@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "command/report_commands.hpp"
+#include "command_line.hpp"
 #include "flowdlo/frame_folder.hpp"
 #include "hostile/cost.hpp"
 #include "hostile/hostile_frame.hpp"
@@ -186,8 +187,9 @@ namespace flowdlo::lab {
 
 void add_hostile_report(CLI::App& program, support::ExitCode& exit_code) {
   auto options = std::make_shared<Options>();
-  auto& app = *program.add_subcommand(
-      "hostile-report", "What each mask of the hostile corpus takes of processor and memory");
+  auto& app =
+      *support::add_command(program, "hostile-report",
+                            "What each mask of the hostile corpus takes of processor and memory");
   app.add_option("--only", options->only, "Masks whose name holds this");
   app.add_flag("--here", options->here, "Measure in this process, without the table's head");
   app.add_flag("--ropes", options->ropes, "Any number of ropes, in the library");
@@ -205,8 +207,7 @@ void add_hostile_report(CLI::App& program, support::ExitCode& exit_code) {
   app.add_option("--limit", options->limit_s, "CPU seconds after which a run is stopped")
       ->check(CLI::Range(1, 100000))
       ->capture_default_str();
-  app.callback(
-      [options, &exit_code] { exit_code = static_cast<support::ExitCode>(::run(*options)); });
+  support::set_action(app, exit_code, [options] { return ::run(*options); });
 }
 
 }  // namespace flowdlo::lab

@@ -2,7 +2,7 @@
 // scenes, each with its mask as the synthetic segmenter gives it and then made worse.
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
+#include <CLI/App.hpp>
 #include <algorithm>
 #include <cstdio>
 #include <memory>
@@ -10,6 +10,8 @@
 #include <vector>
 
 #include "command/report_commands.hpp"
+#include "command/wide_scenes.hpp"
+#include "command_line.hpp"
 #include "eval/metrics.hpp"
 #include "flowdlo/estimator.hpp"
 #include "geometry/quantile.hpp"
@@ -28,9 +30,7 @@ constexpr float kSure = 0.9F;
 
 struct Options {
   std::string weights;
-  std::string part = "validation";
-  std::uint64_t seed = 0;
-  int frames = 100;
+  flowdlo::lab::WideScenes wide;
 };
 
 struct Row {
@@ -80,10 +80,10 @@ int run(const Options& options) {
   }
   const auto kinds = lab::roughnesses();
   std::vector<Row> rows(kinds.size());
-  for (int i = 0; i < options.frames; ++i) {
-    const auto index = static_cast<std::uint64_t>(i);
-    const auto made = synth::make_frame(synth::Split::kWide, *synth::part_of(options.part),
-                                        options.seed, index, {.color = true});
+  for (std::uint64_t i = 0; i < options.wide.scenes; ++i) {
+    const std::uint64_t index = options.wide.first + i;
+    const auto made = synth::make_frame(synth::Split::kWide, *synth::part_of(options.wide.part), 0,
+                                        index, {.color = true});
     if (!made) {
       fmt::print(stderr, "{}\n", made.error().message);
       return 1;
@@ -92,7 +92,7 @@ int run(const Options& options) {
       const FrameFolder rough = kinds[kind].apply(made->folder, made->meta.width_px, index);
       rows[kind].add(estimator->estimate(rough.frame()), made->truth());
     }
-    fmt::print(stderr, "\r{} of {} scenes", i + 1, options.frames);
+    fmt::print(stderr, "\r{} of {} scenes", i + 1, options.wide.scenes);
   }
   fmt::print(stderr, "\n");
   fmt::print(
@@ -109,18 +109,11 @@ namespace flowdlo::lab {
 
 void add_mask_report(CLI::App& program, support::ExitCode& exit_code) {
   auto options = std::make_shared<Options>();
-  auto& app = *program.add_subcommand("mask-report", "How rough a mask may be");
+  auto& app = *support::add_command(program, "mask-report", "How rough a mask may be");
   app.add_option("--weights", options->weights, "Weights of the model, .fdw [those that ship]")
       ->check(CLI::ExistingFile);
-  app.add_option("--part", options->part, "training or validation, of the wide split")
-      ->check(CLI::IsMember({"training", "validation"}))
-      ->capture_default_str();
-  app.add_option("--seed", options->seed, "Of the scenes")->capture_default_str();
-  app.add_option("--frames", options->frames, "Scenes")
-      ->check(CLI::Range(1, 100000))
-      ->capture_default_str();
-  app.callback(
-      [options, &exit_code] { exit_code = static_cast<support::ExitCode>(::run(*options)); });
+  add_options(app, options->wide);
+  support::set_action(app, exit_code, [options] { return ::run(*options); });
 }
 
 }  // namespace flowdlo::lab

@@ -2,7 +2,7 @@
 // of one, and of ordinary frames, in one table. Training scenes unless told otherwise.
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
+#include <CLI/App.hpp>
 #include <algorithm>
 #include <array>
 #include <cstdio>
@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "command/report_commands.hpp"
+#include "command_line.hpp"
 #include "eval/metrics.hpp"
 #include "flowdlo/estimator.hpp"
 #include "one_rope/odd_mask.hpp"
@@ -249,8 +250,8 @@ namespace flowdlo::lab {
 
 void add_one_rope_report(CLI::App& program, support::ExitCode& exit_code) {
   auto options = std::make_shared<Options>();
-  auto& app =
-      *program.add_subcommand("one-rope-report", "Confidence on masks that are not one rope");
+  auto& app = *support::add_command(program, "one-rope-report",
+                                    "Confidence on masks that are not one rope");
   app.add_option("--weights", options->weights, "Weights of the model, .fdw")
       ->required()
       ->check(CLI::ExistingFile);
@@ -272,8 +273,7 @@ void add_one_rope_report(CLI::App& program, support::ExitCode& exit_code) {
   app.add_option("--sizes", options->sizes, "Widths of masks that are no rope")
       ->capture_default_str();
   app.add_option("--csv", options->csv, "Everything measured, a line a frame")->type_name("FILE");
-  app.callback(
-      [options, &exit_code] { exit_code = static_cast<support::ExitCode>(::run(*options)); });
+  support::set_action(app, exit_code, [options] { return ::run(*options); });
 }
 
 }  // namespace flowdlo::lab

@@ -1,7 +1,7 @@
 // flowdlo-lab ropes-report: drawn or rendered scenes of several ropes, told apart and lifted,
 // against their truth: one Markdown table by kind and one by number; --overlays draws the scenes
 // that are not right.
-#include <CLI/CLI.hpp>
+#include <CLI/App.hpp>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "command/report_commands.hpp"
+#include "command_line.hpp"
 #include "estimator/device_choice.hpp"
 #include "field/network.hpp"
 #include "mat/mat_file.hpp"
@@ -379,8 +380,8 @@ namespace flowdlo::lab {
 
 void add_ropes_report(CLI::App& program, support::ExitCode& exit_code) {
   auto options = std::make_shared<Options>();
-  auto& app = *program.add_subcommand(
-      "ropes-report", "Several ropes in one frame, on drawn scenes, against their truth");
+  auto& app = *support::add_command(
+      program, "ropes-report", "Several ropes in one frame, on drawn scenes, against their truth");
   app.add_option("--scenes", options->scenes, "Drawn ones, of each kind and number")
       ->capture_default_str()
       ->check(CLI::Range(0, 1000000));
@@ -425,8 +426,7 @@ void add_ropes_report(CLI::App& program, support::ExitCode& exit_code) {
       ->check(CLI::ExistingDirectory)
       ->type_name("DIR");
   app.add_flag("--all", options->all, "Draw those that are right as well");
-  app.callback(
-      [options, &exit_code] { exit_code = static_cast<support::ExitCode>(::run(*options)); });
+  support::set_action(app, exit_code, [options] { return ::run(*options); });
 }
 
 }  // namespace flowdlo::lab

@@ -1,6 +1,6 @@
 // flowdlo-lab make-scene OUT_DIR [--kind K] [--seed S] [--ropes N [--labels]]: one synthetic frame
 // folder, of one rope with its truth, or of several, with their labels where these are asked for.
-#include <CLI/CLI.hpp>
+#include <CLI/App.hpp>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "command/report_commands.hpp"
+#include "command_line.hpp"
 #include "flowdlo/frame_folder.hpp"
 #include "scene/ropes.hpp"
 #include "scene/scene.hpp"
@@ -77,7 +78,7 @@ namespace flowdlo::lab {
 
 void add_make_scene(CLI::App& program, support::ExitCode& exit_code) {
   auto options = std::make_shared<Options>();
-  auto& app = *program.add_subcommand("make-scene", "Draw a scene of one rope or several");
+  auto& app = *support::add_command(program, "make-scene", "Draw a scene of one rope or several");
   app.add_option("OUT", options->out, "The frame folder")->required();
   app.add_option(
          "--kind", options->kind,

@@ -2,7 +2,7 @@
 // scenes with truth and prints them. flowdlo-lab scenes confidence: how often the best hypothesis
 // is right before and after comparing it with the frame, and what its confidence says, kind by
 // kind.
-#include <CLI/CLI.hpp>
+#include <CLI/App.hpp>
 #include <algorithm>
 #include <cstdio>
 #include <map>
@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "command_line.hpp"
 #include "estimator/confidence.hpp"
 #include "estimator/hypotheses.hpp"
 #include "pictures/scene_overlay.hpp"
@@ -262,8 +263,9 @@ namespace flowdlo::lab {
 void add_confidence(CLI::App& scenes) {
   auto options = std::make_shared<Options>();
   auto* fit =
-      scenes.add_subcommand("fit", "Fit the estimator's ranking and confidence; print them");
-  auto* report = scenes.add_subcommand("confidence", "What ranking and confidence are worth");
+      support::add_command(scenes, "fit", "Fit the estimator's ranking and confidence; print them");
+  auto* report =
+      support::add_command(scenes, "confidence", "What ranking and confidence are worth");
   for (CLI::App* command : {fit, report}) {
     command->add_option("--scenes", options->scenes, "Drawn scenes of each kind")
         ->capture_default_str();

@@ -1,6 +1,6 @@
 // flowdlo-lab scenes report: path, refined prior and confidence against the truth, kind by kind, as
 // one Markdown table; --overlays draws the worst scenes of all kinds.
-#include <CLI/CLI.hpp>
+#include <CLI/App.hpp>
 #include <algorithm>
 #include <cstdint>
 #include <cstdio>
@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "command/report_commands.hpp"
+#include "command_line.hpp"
 #include "pictures/scene_overlay.hpp"
 #include "scene_report/confidence.hpp"
 #include "scene_report/outcome.hpp"
@@ -132,12 +133,12 @@ int report(const Options& options) {
 namespace flowdlo::lab {
 
 void add_scenes(CLI::App& program, support::ExitCode& exit_code) {
-  auto& scenes = *program.add_subcommand(
-      "scenes", "Path, priors and confidence on scenes with truth, before any model");
+  auto& scenes = *support::add_command(
+      program, "scenes", "Path, priors and confidence on scenes with truth, before any model");
   scenes.require_subcommand(1);
   auto options = std::make_shared<Options>();
   auto& app =
-      *scenes.add_subcommand("report", "Path, refined prior and confidence on drawn scenes");
+      *support::add_command(scenes, "report", "Path, refined prior and confidence on drawn scenes");
   app.add_option("--scenes", options->scenes, "Of each kind")
       ->capture_default_str()
       ->check(CLI::Range(1, 1000000));
@@ -155,8 +156,7 @@ void add_scenes(CLI::App& program, support::ExitCode& exit_code) {
   app.add_option("--worst", options->worst, "How many of them")
       ->capture_default_str()
       ->check(CLI::Range(0, 1000000));
-  app.callback(
-      [options, &exit_code] { exit_code = static_cast<support::ExitCode>(::report(*options)); });
+  support::set_action(app, exit_code, [options] { return ::report(*options); });
   add_confidence(scenes);
 }
 

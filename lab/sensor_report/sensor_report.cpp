@@ -2,7 +2,7 @@
 // right, by what the depth is: a model of the sensor's noise, or pictures that were matched.
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
+#include <CLI/App.hpp>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
@@ -16,6 +16,8 @@
 #include <vector>
 
 #include "command/report_commands.hpp"
+#include "command/wide_scenes.hpp"
+#include "command_line.hpp"
 #include "estimator/conditions.hpp"
 #include "eval/metrics.hpp"
 #include "geometry/camera.hpp"
@@ -33,9 +35,7 @@ using flowdlo::kNodes;
 constexpr double kRightWidths = 1;  // a node farther aside than this is on another strand
 
 struct Options {
-  std::string part = "training";
-  std::uint64_t first = 0;
-  std::uint64_t scenes = 100;
+  flowdlo::lab::WideScenes wide{.part = "training"};
   int threads = 0;
 };
 
@@ -131,12 +131,12 @@ int run(const Options& options) {
   std::mutex mutex;
   std::atomic<std::uint64_t> next = 0;
   flowdlo::threads::work_together(flowdlo::threads::count(options.threads), [&](int) {
-    for (std::uint64_t i = next++; i < options.scenes; i = next++) {
+    for (std::uint64_t i = next++; i < options.wide.scenes; i = next++) {
       std::array<std::optional<Offsets>, 2> found;
       for (const std::size_t matched : {0, 1}) {
         const auto scene =
-            synth::make_frame(synth::Split::kWide, *synth::part_of(options.part), 0,
-                              options.first + i, {.color = false, .matched = matched == 1});
+            synth::make_frame(synth::Split::kWide, *synth::part_of(options.wide.part), 0,
+                              options.wide.first + i, {.color = false, .matched = matched == 1});
         if (!scene) continue;
         if (matched == 1 && !scene->meta.camera.ends_with("matched")) continue;
         found[matched] = measured(*scene);
@@ -169,17 +169,12 @@ namespace flowdlo::lab {
 
 void add_sensor_report(CLI::App& program, support::ExitCode& exit_code) {
   auto options = std::make_shared<Options>();
-  auto& app = *program.add_subcommand(
-      "sensor-report",
+  auto& app = *support::add_command(
+      program, "sensor-report",
       "Offsets of the best prior along the ray and aside, by sensor, where it is right");
-  app.add_option("--part", options->part, "Of the wide split")
-      ->check(CLI::IsMember({"training", "validation"}))
-      ->capture_default_str();
-  app.add_option("--first", options->first, "Index of the first scene")->capture_default_str();
-  app.add_option("--scenes", options->scenes, "How many")->capture_default_str();
-  app.add_option("--threads", options->threads, "0: one a core")->capture_default_str();
-  app.callback(
-      [options, &exit_code] { exit_code = static_cast<support::ExitCode>(::run(*options)); });
+  add_options(app, options->wide);
+  add_threads_option(app, options->threads);
+  support::set_action(app, exit_code, [options] { return ::run(*options); });
 }
 
 }  // namespace flowdlo::lab

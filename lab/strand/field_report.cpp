@@ -2,7 +2,7 @@
 // mask.
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
+#include <CLI/App.hpp>
 #include <algorithm>
 #include <ctime>
 #include <filesystem>
@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "command/report_commands.hpp"
+#include "command_line.hpp"
 #include "field/channel.hpp"
 #include "field/sight.hpp"
 #include "field/strand_field.hpp"
@@ -316,8 +317,8 @@ namespace flowdlo::lab {
 
 void add_field_report(CLI::App& program, support::ExitCode& exit_code) {
   auto options = std::make_shared<Options>();
-  auto& app = *program.add_subcommand(
-      "field-report",
+  auto& app = *support::add_command(
+      program, "field-report",
       "What a strand field finds on scenes with truth, beside thinning of the mask");
   options->range.scenes = 100;
   flowdlo::strand::add_options(app, options->range);
@@ -333,8 +334,7 @@ void add_field_report(CLI::App& program, support::ExitCode& exit_code) {
   app.add_option("--worst-by", options->worst_by, "By what a scene is worse than another")
       ->check(CLI::IsMember({"places", "tips", "crossings"}));
   app.add_option("--worst", options->worst, "How many pictures")->check(CLI::Range(0, 1000));
-  app.callback(
-      [options, &exit_code] { exit_code = static_cast<support::ExitCode>(::run(*options)); });
+  support::set_action(app, exit_code, [options] { return ::run(*options); });
 }
 
 }  // namespace flowdlo::lab

@@ -2,7 +2,7 @@
 // field, before any model or gate, on `wide` scenes with truth.
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
+#include <CLI/App.hpp>
 #include <algorithm>
 #include <chrono>
 #include <filesystem>
@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "command/report_commands.hpp"
+#include "command_line.hpp"
 #include "estimator/conditions.hpp"
 #include "estimator/confidence.hpp"
 #include "estimator/second_look.hpp"
@@ -236,15 +237,14 @@ namespace flowdlo::lab {
 
 void add_reading_report(CLI::App& program, support::ExitCode& exit_code) {
   auto options = std::make_shared<Options>();
-  auto& app = *program.add_subcommand(
-      "reading-report",
+  auto& app = *support::add_command(
+      program, "reading-report",
       "The centerline of the mask and of a strand field, before any model or gate");
   flowdlo::strand::add_options(app, options->range);
   app.add_option("--list-over", options->list_over_cm,
                  "Name scenes whose field's error is larger, cm");
   app.add_option("--pictures", options->pictures, "Folder for pictures of every scene");
-  app.callback(
-      [options, &exit_code] { exit_code = static_cast<support::ExitCode>(::run(*options)); });
+  support::set_action(app, exit_code, [options] { return ::run(*options); });
 }
 
 }  // namespace flowdlo::lab

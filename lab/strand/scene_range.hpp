@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
+#include <CLI/App.hpp>
 #include <algorithm>
 #include <atomic>
 #include <cstdint>
@@ -15,6 +15,7 @@
 #include <utility>
 #include <vector>
 
+#include "command/wide_scenes.hpp"
 #include "field/network.hpp"
 #include "reference/program.hpp"
 #include "synth/synthetic_frame.hpp"
@@ -24,12 +25,11 @@
 
 namespace flowdlo::strand {
 
-struct SceneRange {
+struct SceneRange : lab::WideScenes {
+  SceneRange() { scenes = 300; }
+
   std::filesystem::path weights;
-  std::string part = "validation";
-  std::uint64_t first = 0;
-  std::uint64_t scenes = 300;
-  int threads = 0;  ///< 0: one a core
+  int threads = 0;       ///< 0: one a core
   std::string scenario;  ///< of these scenes alone; empty: all
 };
 
@@ -37,12 +37,9 @@ inline void add_options(CLI::App& app, SceneRange& range) {
   app.add_option("--field", range.weights, "Weights of the field, .safetensors")
       ->required()
       ->check(CLI::ExistingFile);
-  app.add_option("--part", range.part, "Of the wide split")
-      ->check(CLI::IsMember({"training", "validation"}));
-  app.add_option("--first", range.first, "Index of the first scene");
-  app.add_option("--scenes", range.scenes, "How many")->check(CLI::Range(1, 1000000));
+  lab::add_options(app, range);
+  lab::add_threads_option(app, range.threads);
   app.add_option("--scenario", range.scenario, "Leave out the others, such as: coil");
-  app.add_option("--threads", range.threads, "0: one a core")->check(CLI::Range(0, 1024));
 }
 
 /// The field's weights; null where they cannot be read, which is told on stderr.

@@ -3,7 +3,7 @@
 // frame before does that is wrong.
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
+#include <CLI/App.hpp>
 #include <algorithm>
 #include <atomic>
 #include <cstdint>
@@ -16,10 +16,13 @@
 #include <vector>
 
 #include "command/report_commands.hpp"
+#include "command/wide_scenes.hpp"
+#include "command_line.hpp"
 #include "flowdlo/estimator.hpp"
 #include "geometry/polyline.hpp"
 #include "stream_report/steadiness.hpp"
 #include "synth/synthetic_frame.hpp"
+#include "threads/count.hpp"
 
 namespace {
 
@@ -35,11 +38,9 @@ constexpr float kMoved_m = 0.02F;
 
 struct Options {
   std::string weights;
-  std::string part = "training";
-  std::uint64_t first = 1000000;
-  int scenes = 24;
+  flowdlo::lab::WideScenes wide{.part = "training", .first = 1000000, .scenes = 24};
   int frames = 200;
-  int jobs = 1;
+  int threads = 1;
   bool full = false;
   bool list = false;
   bool mislead = false;
@@ -98,8 +99,8 @@ Streams watch(const Options& options, std::uint64_t index, Estimator& estimator)
     synth::Render render;
     render.frame = k;
     render.windows = around_mask;
-    const auto scene =
-        synth::make_frame(synth::Split::kWide, *synth::part_of(options.part), 0, index, render);
+    const auto scene = synth::make_frame(synth::Split::kWide, *synth::part_of(options.wide.part), 0,
+                                         index, render);
     if (!scene) {
       streams.failure = scene.error().message;
       return streams;
@@ -157,12 +158,12 @@ std::string row(const std::string& name, const Steadiness& s) {
 }
 
 int report(const Options& options) {
-  std::vector<Streams> all(static_cast<std::size_t>(options.scenes));
-  std::atomic<int> next = 0;
+  std::vector<Streams> all(static_cast<std::size_t>(options.wide.scenes));
+  std::atomic<std::uint64_t> next = 0;
   std::mutex telling;
   std::string failure;
   std::vector<std::thread> threads;
-  for (int j = 0; j < options.jobs; ++j) {
+  for (int j = 0; j < flowdlo::threads::count(options.threads); ++j) {
     threads.emplace_back([&] {
       Config config;
       config.weights = options.weights;
@@ -177,16 +178,15 @@ int report(const Options& options) {
         failure = estimator.error().message;
         return;
       }
-      for (int i = next++; i < options.scenes; i = next++) {
-        const auto at = static_cast<std::size_t>(i);
-        all[at] = watch(options, options.first + at, *estimator);
+      for (std::size_t at = next++; at < all.size(); at = next++) {
+        all[at] = watch(options, options.wide.first + at, *estimator);
         const std::lock_guard lock(telling);
         const Streams& s = all[at];
-        if (!s.failure.empty()) fmt::print(stderr, "{}: {}\n", options.first + at, s.failure);
+        if (!s.failure.empty()) fmt::print(stderr, "{}: {}\n", options.wide.first + at, s.failure);
         if (options.list) {
           fmt::print(stderr,
                      "{} {}: alone {} exchanged {} jumps, previous {} and {}, {} switched\n",
-                     options.first + at, s.scenario, s.alone.exchanged, s.alone.jumps,
+                     options.wide.first + at, s.scenario, s.alone.exchanged, s.alone.jumps,
                      s.previous.exchanged, s.previous.jumps, s.switched);
         }
       }
@@ -228,29 +228,21 @@ namespace flowdlo::lab {
 
 void add_stream_report(CLI::App& program, support::ExitCode& exit_code) {
   auto options = std::make_shared<Options>();
-  auto& app = *program.add_subcommand(
-      "stream-report", "How steady estimates of still scenes are, frame by frame with fresh noise");
+  auto& app = *support::add_command(
+      program, "stream-report",
+      "How steady estimates of still scenes are, frame by frame with fresh noise");
   app.add_option("--weights", options->weights, "A .fdw file [the one that ships]")
       ->type_name("FILE");
-  app.add_option("--part", options->part, "Scenes of the wide split: training or validation")
-      ->capture_default_str()
-      ->check(CLI::IsMember({"training", "validation"}));
-  app.add_option("--first", options->first, "Index of the first scene")->capture_default_str();
-  app.add_option("--scenes", options->scenes, "How many")
-      ->capture_default_str()
-      ->check(CLI::Range(1, 100000));
+  add_options(app, options->wide);
   app.add_option("--frames", options->frames, "Of each scene")
       ->capture_default_str()
       ->check(CLI::Range(1, 100000));
-  app.add_option("--jobs", options->jobs, "Scenes at a time")
-      ->capture_default_str()
-      ->check(CLI::Range(1, 64));
+  add_threads_option(app, options->threads);
   app.add_flag("--full", options->full, "All steps and draws, not quality fast");
   app.add_flag("--mislead", options->mislead,
                "Also with a wrong frame before: the best alternative that runs elsewhere");
   app.add_flag("--list", options->list, "Every scene and every jump on stderr");
-  app.callback(
-      [options, &exit_code] { exit_code = static_cast<support::ExitCode>(::report(*options)); });
+  support::set_action(app, exit_code, [options] { return ::report(*options); });
 }
 
 }  // namespace flowdlo::lab
