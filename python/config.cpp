@@ -24,8 +24,9 @@ constexpr Names<PriorChoice, 3> kPriors{{{"auto", PriorChoice::kOfWeights},
 constexpr Names<GateChoice, 3> kGates{{{"auto", GateChoice::kOfWeights},
                                        {"thesis", GateChoice::kThesis},
                                        {"calibrated", GateChoice::kCalibrated}}};
-constexpr Names<FieldChoice, 2> kFields{
-    {{"auto", FieldChoice::kBeside}, {"off", FieldChoice::kOff}}};
+constexpr Names<FieldChoice, 3> kFields{{{"auto", FieldChoice::kBeside},
+                                         {"off", FieldChoice::kOff},
+                                         {"strands", FieldChoice::kStrands}}};
 
 std::string shown(const py::handle& value) { return py::repr(value).cast<std::string>(); }
 

@@ -28,9 +28,12 @@ void add_prior_options(CLI::App& command, Config& config) {
       ->type_name("RULE");
   command
       .add_option("--field", config.field,
-                  "The strand field, which sees strands that the mask merges: auto (where its "
-                  "weights lie beside the model's) or off")
-      ->transform(choice<FieldChoice>({{"auto", FieldChoice::kBeside}, {"off", FieldChoice::kOff}}))
+                  "The strand field, which sees strands that the mask merges, and what refines "
+                  "the nodes: auto (where the weights lie beside the model's), strands (the first "
+                  "alone) or off")
+      ->transform(choice<FieldChoice>({{"auto", FieldChoice::kBeside},
+                                       {"strands", FieldChoice::kStrands},
+                                       {"off", FieldChoice::kOff}}))
       ->type_name("CHOICE");
   command
       .add_option("--field-weights", config.field_weights,

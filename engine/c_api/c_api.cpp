@@ -32,6 +32,7 @@ static_assert(FLOWDLO_PRIOR_REFINED == static_cast<int>(PriorChoice::kRefined));
 static_assert(FLOWDLO_GATE_THESIS == static_cast<int>(GateChoice::kThesis));
 static_assert(FLOWDLO_GATE_CALIBRATED == static_cast<int>(GateChoice::kCalibrated));
 static_assert(FLOWDLO_FIELD_OFF == static_cast<int>(FieldChoice::kOff));
+static_assert(FLOWDLO_FIELD_STRANDS == static_cast<int>(FieldChoice::kStrands));
 static_assert(FLOWDLO_SOURCE_PREDICTION == static_cast<int>(Source::kPrediction));
 static_assert(FLOWDLO_SOURCE_PRIOR == static_cast<int>(Source::kPrior));
 static_assert(FLOWDLO_ORIGIN_FIRST_PRIOR == static_cast<int>(Origin::kFirstPrior));

@@ -33,7 +33,7 @@ Result<void> check(const Config& config) {
   expect_known(config.quality, Quality::kFast, "quality");
   expect_known(config.prior, PriorChoice::kRefined, "prior");
   expect_known(config.gate, GateChoice::kCalibrated, "gate");
-  expect_known(config.field, FieldChoice::kOff, "field");
+  expect_known(config.field, FieldChoice::kStrands, "field");
   if (config.device.empty()) {
     fault(
         "Config.device: expected \"auto\", \"cpu\", \"vulkan\", part of a name or a UUID, got "

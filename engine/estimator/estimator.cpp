@@ -16,13 +16,13 @@
 #include "estimator/hints.hpp"
 #include "estimator/known_scene.hpp"
 #include "estimator/opening.hpp"
+#include "estimator/refinement.hpp"
 #include "estimator/returned.hpp"
 #include "estimator/second_look.hpp"
 #include "estimator/several.hpp"
 #include "estimator/stopwatch.hpp"
 #include "estimator/tensors.hpp"
 #include "evidence/mask_field.hpp"
-#include "field/network.hpp"
 #include "field/strand_field.hpp"
 #include "flow/sampler.hpp"
 #include "gate/gate.hpp"
@@ -40,7 +40,7 @@ namespace flowdlo {
 namespace {
 
 /// The caller's view of what the gate chose.
-Estimate conclude(const estimator::Returned& returned,
+Estimate conclude(const estimator::Returned& returned, const std::optional<Centerline>& refined,
                   const std::vector<estimator::Hypothesis>& hypotheses,
                   const flow::Prediction& prediction, gate::Verdict verdict,
                   const gate::DilatedMask& mask, const Frame& frame) {
@@ -51,6 +51,7 @@ Estimate conclude(const estimator::Returned& returned,
   estimate.draw = returned.draw;
   estimate.nodes =
       returned.draw >= 0 ? prediction.draws[static_cast<std::size_t>(returned.draw)] : prior.nodes;
+  if (refined) estimate.nodes = *refined;
   estimate.support = prior.support;
   estimate.closed = hypotheses[returned.hypothesis].evidence.closed;
   estimate.sigma_m = returned.sigma_m;
@@ -77,7 +78,7 @@ struct FLOWDLO_HIDDEN Estimator::Impl {
   Config config;
   weights::Metadata metadata;
   estimator::DeviceSampler sampler;
-  std::optional<field::Network> field;
+  estimator::FieldNetworks networks;
   threads::Pool pool{config.threads};  // for what runs beside the model
   estimator::ReadingCosts reading_costs{};
   estimator::Cost model_cost{0};  // mask field and all
@@ -126,10 +127,10 @@ Result<std::unique_ptr<Estimator::Impl>> Estimator::Impl::create(const Config& w
   auto sampler =
       estimator::DeviceSampler::create(config, estimator::source_of(*loaded), *std::move(back_end));
   if (!sampler) return sampler.error();
-  auto field = estimator::open_field(config, location->field);
-  if (!field) return field.error();
+  auto networks = estimator::open_field(config, location->field);
+  if (!networks) return networks.error();
   auto impl = std::unique_ptr<Impl>(  // an aggregate, which Clang 14 makes by braces only
-      new Impl{config, metadata, *std::move(sampler), *std::move(field)});
+      new Impl{config, metadata, *std::move(sampler), *std::move(networks)});
   impl->fetch = std::move(fetch);
   if (config.budget_ms > 0) impl->learn_costs();
   return impl;
@@ -185,12 +186,12 @@ double Estimator::Impl::sampling_ms(const estimator::Rereading& rereading) const
 /// What the strand field shows; nothing without one, or where it would take too long.
 std::optional<field::Axes> Estimator::Impl::axes(const Frame& frame, float rope_width_px,
                                                  const estimator::Budget& budget) {
-  if (!field) return std::nullopt;
+  if (!networks.field) return std::nullopt;
   const double rope_px = estimator::magnified_px(frame, rope_width_px);
   if (budget.bounded() && !budget.leaves(reading_costs.of_field.of(rope_px))) {
     return std::nullopt;
   }
-  const auto seen = field::see(frame, rope_width_px, *field);
+  const auto seen = field::see(frame, rope_width_px, *networks.field);
   return seen ? std::optional(field::axes(*seen)) : std::nullopt;
 }
 
@@ -219,8 +220,9 @@ Result<Estimate> Estimator::Impl::estimate(const Frame& frame, const Hints& hint
   // The thesis' gate knows no doubt.
   const bool reread =
       calibrated() && estimator::worth_rereading(*conditions, frame, traced != nullptr);
-  estimator::Rereading rereading(pool, reread, field ? &*field : nullptr, *conditions, frame,
-                                 rope_length_m, prior_kind(), ends, limits(budget, timings));
+  estimator::Rereading rereading(pool, reread, networks.field ? &*networks.field : nullptr,
+                                 *conditions, frame, rope_length_m, prior_kind(), ends,
+                                 limits(budget, timings));
 
   const auto& hypotheses = conditions->hypotheses;
   const bool sampled = tensors != nullptr || budget.leaves(sampling_ms(rereading));
@@ -267,8 +269,10 @@ Result<Estimate> Estimator::Impl::estimate(const Frame& frame, const Hints& hint
   const auto returned =
       calibrated() ? estimator::by_score(candidates, hints, *conditions, frame, rope_length_m, look)
                    : estimator::by_thesis(hypotheses, *prediction, verdict, assigned);
+  const auto refined = estimator::refined(returned, candidates, frame, networks.refine);
+  if (!refined) return refined.error();
   Estimate estimate =
-      conclude(returned, look.hypotheses, *prediction, std::move(verdict), mask, frame);
+      conclude(returned, *refined, look.hypotheses, *prediction, std::move(verdict), mask, frame);
   estimate.one_rope = gate::one_rope(estimate.nodes, frame, conditions->paths.rope_width_px);
   estimate.confidence = gate::doubted(estimate.confidence, estimate.one_rope);
   estimate.readings = look.readings;
@@ -286,8 +290,8 @@ Result<Estimate> Estimator::Impl::estimate(const Frame& frame, const Hints& hint
     *tensors = estimator::collect_tensors(
         sampler.source(), conditions->paths.ranked[hypotheses.front().path],
         hypotheses.front().prior, draw_priors, *prediction, mask_field);
-    if (field) {
-      const auto seen = field::see(frame, conditions->paths.rope_width_px, *field);
+    if (networks.field) {
+      const auto seen = field::see(frame, conditions->paths.rope_width_px, *networks.field);
       if (seen) tensors->strands = estimator::seen_strands(*seen);
     }
   }

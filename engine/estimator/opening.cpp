@@ -44,19 +44,26 @@ flow::WeightsSource source_of(const weights::Loaded& loaded) {
   };
 }
 
-Result<std::optional<field::Network>> open_field(const Config& config,
-                                                 const weights::Place& beside) {
-  if (config.field == FieldChoice::kOff) return std::optional<field::Network>();
+Result<FieldNetworks> open_field(const Config& config, const weights::Place& beside) {
+  if (config.field == FieldChoice::kOff) return FieldNetworks{};
   const auto place =
       config.field_weights.empty() ? beside : weights::Place{config.field_weights, {}};
-  if (place.file.empty()) return std::optional<field::Network>();
+  if (place.file.empty()) return FieldNetworks{};
   auto loaded = weights::load_field(place);
   if (!loaded) return loaded.error();
   const auto cpu = cpu_back_end(1);
+  FieldNetworks networks;
+  if (loaded->refine && config.field != FieldChoice::kStrands) {
+    auto refine = refine::Network::create(*loaded->refine, cpu.make_program);
+    if (!refine) return refine.error();
+    networks.refine = *std::move(refine);
+  }
+  loaded->refine.reset();
   auto network = field::Network::create(
       std::make_shared<const weights::FieldWeights>(*std::move(loaded)), cpu.make_program);
   if (!network) return network.error();
-  return std::optional(*std::move(network));
+  networks.field = *std::move(network);
+  return networks;
 }
 
 void return_free_memory() {

@@ -7,6 +7,7 @@
 #include "flow/sampler.hpp"
 #include "flowdlo/config.hpp"
 #include "flowdlo/result.hpp"
+#include "refine/network.hpp"
 #include "weights/kept_file.hpp"
 #include "weights/weights.hpp"
 
@@ -21,11 +22,16 @@ namespace flowdlo::estimator {
 /// planned and for a lost device.
 [[nodiscard]] flow::WeightsSource source_of(const weights::Loaded& loaded);
 
-/// The network that sees strands, on one thread of the CPU: it works beside the model. None where
-/// it is off or has no weights: neither the configuration's nor `beside`, those that belong to the
-/// model. Fails as reading them does.
-[[nodiscard]] Result<std::optional<field::Network>> open_field(const Config& config,
-                                                               const weights::Place& beside);
+/// What the strand field's file holds.
+struct FieldNetworks {
+  std::optional<field::Network> field{};    ///< sees strands
+  std::optional<refine::Network> refine{};  ///< moves nodes; not every file has it
+};
+
+/// Both on one thread of the CPU: the first works beside the model, the second takes a few
+/// milliseconds. None where they are off or have no weights: neither the configuration's nor
+/// `beside`, those that belong to the model. Fails as reading them does.
+[[nodiscard]] Result<FieldNetworks> open_field(const Config& config, const weights::Place& beside);
 
 /// To the system, what making an estimator used once: a driver's compiler and the decoded weights
 /// leave 8 to 15 MB of free pieces between what stays.

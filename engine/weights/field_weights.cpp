@@ -7,6 +7,8 @@
 #include <cassert>
 #include <charconv>
 #include <cmath>
+#include <cstddef>
+#include <iterator>
 #include <map>
 
 #include "files/whole_file.hpp"
@@ -45,6 +47,25 @@ int channels_of(const Fields& fields, const char* key, int most, std::vector<std
   faults.push_back(fmt::format("metadata {}: expected a multiple of {} up to {}, got {}", key,
                                kChannelStep, most, in_quotes(text)));
   return kChannelStep;
+}
+
+/// Whether the file says that it holds room `refine`'s network.
+bool refines_of(const Fields& fields, std::vector<std::string>& faults) {
+  const auto found = fields.find("refine");
+  if (found == fields.end()) return false;
+  if (found->second == kRefineVersion) return true;
+  faults.push_back(
+      fmt::format("metadata refine: expected \"{}\", got {}; this FlowDLO reads no other version",
+                  kRefineVersion, in_quotes(found->second)));
+  return false;
+}
+
+std::vector<Expected> whole_manifest(const FieldSizes& sizes, bool refines) {
+  auto expected = field_manifest(sizes);
+  if (refines) {
+    for (Expected& tensor : refine_manifest()) expected.push_back(std::move(tensor));
+  }
+  return expected;
 }
 
 }  // namespace
@@ -103,10 +124,19 @@ Result<FieldWeights> parse_field(std::span<const std::uint8_t> bytes,
   weights.sizes = {channels_of(parsed.metadata, "fine", kMostFine, faults),
                    channels_of(parsed.metadata, "middle", kMostMiddle, faults),
                    channels_of(parsed.metadata, "coarse", kMostCoarse, faults)};
+  const bool refines = refines_of(parsed.metadata, faults);
+  if (refines) weights.refine.emplace().notes = text_of(parsed.metadata, "refine_notes", faults);
   if (!faults.empty()) return bad_weights(file, faults);
-  const auto manifest = field_manifest(weights.sizes);
+  const auto manifest = whole_manifest(weights.sizes, refines);
   const auto matched = match(parsed.tensors, manifest, kReadable, faults);
   weights.tensors = decode(matched, manifest, faults);
+  if (refines) {
+    const auto first =
+        weights.tensors.begin() + static_cast<std::ptrdiff_t>(field_manifest(weights.sizes).size());
+    weights.refine->tensors.assign(std::make_move_iterator(first),
+                                   std::make_move_iterator(weights.tensors.end()));
+    weights.tensors.erase(first, weights.tensors.end());
+  }
   const std::string expected = text_of(parsed.metadata, "sha256", faults);
   const std::string got = digest(matched);
   if (faults.empty() && expected != got) {
@@ -121,29 +151,39 @@ Result<void> save_field(const FieldWeights& weights, const std::filesystem::path
   std::vector<std::string> faults;
   std::vector<std::vector<std::uint8_t>> encoded;
   std::vector<StoredTensor> stored;
-  for (const Tensor& tensor : weights.tensors) {
+  std::vector<const Tensor*> tensors;
+  for (const Tensor& tensor : weights.tensors) tensors.push_back(&tensor);
+  if (weights.refine) {
+    for (const Tensor& tensor : weights.refine->tensors) tensors.push_back(&tensor);
+  }
+  for (const Tensor* const of : tensors) {
+    const Tensor& tensor = *of;
     auto fault = finiteness_fault(tensor.name, tensor.values);
     if (!fault.empty()) faults.push_back(std::move(fault));
     encoded.push_back(encode(tensor, StorageType::kF16, faults));
   }
   std::vector<const StoredTensor*> all;
-  for (std::size_t i = 0; i < weights.tensors.size(); ++i) {
-    const Tensor& tensor = weights.tensors[i];
+  for (std::size_t i = 0; i < tensors.size(); ++i) {
+    const Tensor& tensor = *tensors[i];
     stored.push_back(
         {tensor.name, {tensor.shape.begin(), tensor.shape.end()}, DType::kF16, "f16", encoded[i]});
   }
   for (const StoredTensor& tensor : stored) all.push_back(&tensor);
-  const auto manifest = field_manifest(weights.sizes);
+  const auto manifest = whole_manifest(weights.sizes, weights.refine.has_value());
   constexpr std::array kHalf{DType::kF16};
   (void)match(stored, manifest, kHalf, faults);
   if (!faults.empty()) return bad_weights(file, faults);
-  const Fields fields{{"name", weights.name},
-                      {"training_data", weights.training_data},
-                      {"notes", weights.notes},
-                      {"fine", std::to_string(weights.sizes.fine)},
-                      {"middle", std::to_string(weights.sizes.middle)},
-                      {"coarse", std::to_string(weights.sizes.coarse)},
-                      {"sha256", digest(all)}};
+  Fields fields{{"name", weights.name},
+                {"training_data", weights.training_data},
+                {"notes", weights.notes},
+                {"fine", std::to_string(weights.sizes.fine)},
+                {"middle", std::to_string(weights.sizes.middle)},
+                {"coarse", std::to_string(weights.sizes.coarse)},
+                {"sha256", digest(all)}};
+  if (weights.refine) {
+    fields.emplace("refine", kRefineVersion);
+    fields.emplace("refine_notes", weights.refine->notes);
+  }
   const std::string header = safetensors_header(fields, stored);
   const auto* header_bytes = reinterpret_cast<const std::uint8_t*>(header.data());
   std::vector<std::span<const std::uint8_t>> parts{{header_bytes, header.size()}};
@@ -152,7 +192,7 @@ Result<void> save_field(const FieldWeights& weights, const std::filesystem::path
 }
 
 FieldWeights seeded_field(const FieldSizes& sizes, std::uint64_t seed) {
-  FieldWeights weights{"seeded noise", "none", "", sizes, {}};
+  FieldWeights weights{"seeded noise", "none", "", sizes, {}, {}};
   std::uint64_t stream = 0;
   for (Expected& expected : field_manifest(sizes)) {
     Tensor tensor{std::move(expected.name), std::move(expected.shape), {}};

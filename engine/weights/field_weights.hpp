@@ -1,8 +1,10 @@
-// FieldWeights: the network of room `field`, as a .safetensors file beside the velocity model's.
+// FieldWeights: the network of room `field`, as a .safetensors file beside the velocity model's,
+// and with it that of room `refine`.
 #pragma once
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -10,6 +12,7 @@
 
 #include "flowdlo/result.hpp"
 #include "weights/location.hpp"
+#include "weights/refine_weights.hpp"
 #include "weights/weights.hpp"
 
 namespace flowdlo::weights {
@@ -33,7 +36,8 @@ struct FieldWeights {
   std::string training_data;  ///< "none" for seeded noise
   std::string notes;          ///< free text: training command, device, validation table
   FieldSizes sizes;
-  std::vector<Tensor> tensors;  ///< exactly field_manifest()'s, in its order
+  std::vector<Tensor> tensors;            ///< exactly field_manifest()'s, in its order
+  std::optional<RefineWeights> refine{};  ///< where the file holds that network as well
 
   /// The tensor of that name. It must be one of the manifest's.
   [[nodiscard]] const Tensor& at(std::string_view name) const;

@@ -22,13 +22,15 @@ enum class GateChoice {
   kCalibrated,  ///< a score fitted on synthetic scenes, over draws, prior and alternatives
 };
 
-/// Whether a small network sees the strands beside the reading of the mask, which cannot tell those
-/// that it merges.
+/// Which small networks help beside the reading of the mask: one that sees strands, since a mask
+/// cannot tell those that it merges, and one that then moves the nodes to where mask and depth
+/// along them say that the rope's axis is.
 enum class FieldChoice {
-  kBeside,  ///< where its weights are: Config::field_weights, or the `field.safetensors` that
-            ///< belongs to Config::weights: in its folder, or within the library; not with the
-            ///< thesis' gate, which knows no doubt
-  kOff,     ///< the mask alone is read
+  kBeside,   ///< where its weights are: Config::field_weights, or the `field.safetensors` that
+             ///< belongs to Config::weights: in its folder, or within the library; not with the
+             ///< thesis' gate, which knows no doubt
+  kOff,      ///< neither: the mask alone is read
+  kStrands,  ///< as kBeside, but nodes stay where the prior has them
 };
 
 /// How much of the model runs a frame.

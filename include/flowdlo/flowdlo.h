@@ -59,7 +59,7 @@ FLOWDLO_EXPORT const char* flowdlo_version(void);
 enum { FLOWDLO_QUALITY_FULL = 0, FLOWDLO_QUALITY_FAST = 1 };
 enum { FLOWDLO_PRIOR_OF_WEIGHTS = 0, FLOWDLO_PRIOR_THESIS = 1, FLOWDLO_PRIOR_REFINED = 2 };
 enum { FLOWDLO_GATE_OF_WEIGHTS = 0, FLOWDLO_GATE_THESIS = 1, FLOWDLO_GATE_CALIBRATED = 2 };
-enum { FLOWDLO_FIELD_BESIDE = 0, FLOWDLO_FIELD_OFF = 1 };
+enum { FLOWDLO_FIELD_BESIDE = 0, FLOWDLO_FIELD_OFF = 1, FLOWDLO_FIELD_STRANDS = 2 };
 
 /* flowdlo::Config of <flowdlo/config.hpp>, which says more of each field; the defaults are its. */
 typedef struct flowdlo_config {

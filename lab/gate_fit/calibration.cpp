@@ -115,7 +115,7 @@ NodeRows node_rows(const GateSample& sample, const Outcome& outcome, double prob
                    std::size_t first) {
   const gate::NodeFeatures features(sample.candidates, outcome.returned, outcome.scores,
                                     outcome.hypothesis, probability);
-  const auto off_m = node_errors_m(sample.candidates[chosen(outcome)].nodes, sample.truth);
+  const auto off_m = node_errors_m(sample.answer(chosen(outcome)), sample.truth);
   NodeRows rows;
   for (std::size_t node = first % kNodeStep; node < kNodes; node += kNodeStep) {
     rows.features.push_back(features.of(node));

@@ -207,8 +207,8 @@ std::array<double, kNodes> node_errors_m(const Centerline& nodes, const Centerli
 
 std::vector<double> errors_m(const GateSample& sample) {
   std::vector<double> errors;
-  for (const gate::Candidate& candidate : sample.candidates) {
-    const auto off_m = node_errors_m(candidate.nodes, sample.truth);
+  for (std::size_t i = 0; i < sample.candidates.size(); ++i) {
+    const auto off_m = node_errors_m(sample.answer(i), sample.truth);
     errors.push_back(std::accumulate(off_m.begin(), off_m.end(), 0.0) / kNodes);
   }
   return errors;

@@ -8,7 +8,7 @@
 
 namespace flowdlo::lab {
 
-/// Mean index error of each candidate against the truth, Eq. (4.1), in the better direction.
+/// Mean index error of what is returned of each candidate, Eq. (4.1), in the better direction.
 [[nodiscard]] std::vector<double> errors_m(const GateSample& sample);
 
 /// [64] distances from the truth in the better direction.

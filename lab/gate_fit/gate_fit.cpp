@@ -24,6 +24,7 @@
 #include "gate_fit/sample_file.hpp"
 #include "progress_bar.hpp"
 #include "reference/program.hpp"
+#include "refine/network.hpp"
 #include "threads/team.hpp"
 #include "weights/field_weights.hpp"
 #include "weights/weights.hpp"
@@ -58,6 +59,7 @@ struct Options {
   int steps = 10;
   bool quiet = false;
   bool keep_choice = false;
+  bool unrefined = false;
 };
 
 /// Scenes of one split and part, with or without the model.
@@ -102,13 +104,25 @@ Result<Model> open_model(const Options& options, bool with_sampler) {
   return model;
 }
 
-/// One thread's own; none without weights.
-Result<std::optional<flowdlo::field::Network>> network_of(const Model& model) {
-  if (!model.field) return std::optional<flowdlo::field::Network>();
-  auto network = flowdlo::field::Network::create(
-      model.field, [] { return flowdlo::reference::create_program(1); });
-  if (!network) return network.error();
-  return std::optional(*std::move(network));
+/// One thread's own.
+struct Networks {
+  std::optional<flowdlo::field::Network> field{};
+  std::optional<flowdlo::refine::Network> refine{};
+};
+
+/// None without weights.
+Result<Networks> networks_of(const Model& model, bool unrefined) {
+  Networks networks;
+  if (!model.field) return networks;
+  const auto make_program = [] { return flowdlo::reference::create_program(1); };
+  auto field = flowdlo::field::Network::create(model.field, make_program);
+  if (!field) return field.error();
+  networks.field = *std::move(field);
+  if (unrefined || !model.field->refine) return networks;
+  auto refine = flowdlo::refine::Network::create(*model.field->refine, make_program);
+  if (!refine) return refine.error();
+  networks.refine = *std::move(refine);
+  return networks;
 }
 
 /// A split that ends goes on with its next seed.
@@ -123,20 +137,21 @@ Result<synth::SyntheticFrame> scene_of(const lab::SampleOrigin& origin, std::uin
 
 using Measured = Result<std::optional<lab::GateSample>>;
 
-Measured measured_one(const Options& options, const Batch& batch, Model& model,
-                      flowdlo::field::Network* field, int number) {
+Measured measured_one(const Options& options, const Batch& batch, Model& model, Networks& networks,
+                      int number) {
   const std::uint64_t index = batch.origin.first + static_cast<std::uint64_t>(number);
   auto scene = scene_of(batch.origin, index, false);
   if (!scene) return scene.error();
   const auto kind = model.weights->metadata.variant.prior_kind;
   const double length_m = known_length_m(batch.origin, index, scene->meta.length_m);
   // Colours take longest, and nothing but the strand field asks for them.
-  if (field != nullptr && lab::is_reread(*scene, kind, length_m)) {
+  if (networks.field && lab::is_reread(*scene, kind, length_m)) {
     scene = scene_of(batch.origin, index, true);
     if (!scene) return scene.error();
   }
-  return lab::measure(*scene, model.sampler ? &*model.sampler : nullptr, field, options.draws, kind,
-                      length_m);
+  return lab::measure(*scene, model.sampler ? &*model.sampler : nullptr,
+                      networks.field ? &*networks.field : nullptr,
+                      networks.refine ? &*networks.refine : nullptr, options.draws, kind, length_m);
 }
 
 /// Scenes `done` and later; several at a time where there is no model, which takes threads itself.
@@ -149,14 +164,14 @@ Result<Samples> measured(const Options& options, const Batch& batch, int done) {
   std::atomic<int> next = done;
   std::mutex drawing;
   flowdlo::threads::work_together(model->sampler ? 1 : flowdlo::threads::cores(), [&](int) {
-    auto network = network_of(*model);
+    auto networks = networks_of(*model, options.unrefined);
     for (int i = next++; i < batch.scenes; i = next++) {
       Measured& one = all[static_cast<std::size_t>(i - done)];
-      if (!network) {
-        one = network.error();
+      if (!networks) {
+        one = networks.error();
         continue;
       }
-      one = measured_one(options, batch, *model, *network ? &**network : nullptr, i);
+      one = measured_one(options, batch, *model, *networks, i);
       const std::scoped_lock lock(drawing);
       bar.advance();
     }
@@ -196,7 +211,9 @@ Result<Samples> samples_of(const Options& options, const Batch& batch) {
 std::string field_of(const Options& options) {
   if (options.field.empty()) return "";
   const auto weights = flowdlo::weights::load_field(options.field);
-  return weights ? weights->notes : "";
+  if (!weights) return "";
+  const bool refines = weights->refine && !options.unrefined;
+  return weights->notes + (refines ? "; refined: " + weights->refine->notes : "");
 }
 
 Result<Samples> with_model(const Options& options) {
@@ -317,6 +334,8 @@ void add_options(CLI::App& command, Options& options) {
   command.add_option("--steps", options.steps, "Euler steps")
       ->check(CLI::Range(1, 64))
       ->capture_default_str();
+  command.add_flag("--unrefined", options.unrefined,
+                   "Leave nodes where the prior has them, whatever the strand field's file holds");
   command.add_flag("--quiet", options.quiet, "No progress bar");
 }
 

@@ -41,13 +41,14 @@ struct Row {
 Row row_of(const GateSample& sample, const WeightsOf& weights_of) {
   const auto& candidates = sample.candidates;
   std::vector<double> published_cm;
-  for (const auto& candidate : candidates) {
-    published_cm.push_back(100 * eval::index_error_m(candidate.nodes, sample.truth));
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    published_cm.push_back(100 * eval::index_error_m(sample.answer(i), sample.truth));
   }
   const gate::Choice choice = gate::choose_calibrated(candidates, weights_of(candidates));
   Row row;
   row.sample = &sample;
-  row.prior_cm = row.draw_cm = row.oracle_priors_cm = published_cm[0];
+  row.prior_cm = row.draw_cm = 100 * eval::index_error_m(candidates[0].nodes, sample.truth);
+  row.oracle_priors_cm = published_cm[0];
   for (std::size_t i = candidates.size(); i-- > 0;) {
     if (candidates[i].draw == 0) row.draw_cm = published_cm[i];
     if (candidates[i].draw >= 0) continue;
@@ -62,7 +63,7 @@ Row row_of(const GateSample& sample, const WeightsOf& weights_of) {
   if (!sample.doubted.empty() && sample.doubted[choice.chosen] != 0) {
     row.probability = std::min(row.probability, static_cast<double>(gate::kDoubted));
   }
-  const auto off_m = node_errors_m(candidates[choice.chosen].nodes, sample.truth);
+  const auto off_m = node_errors_m(sample.answer(choice.chosen), sample.truth);
   for (std::size_t node = 0; node < kNodes; ++node) {
     const auto sigma_m = static_cast<double>(choice.sigma_m[node]);
     row.one_sigma += off_m[node] <= sigma_m ? 1.0 / kNodes : 0;

@@ -2,11 +2,13 @@
 
 #include "estimator/candidates.hpp"
 #include "estimator/conditions.hpp"
+#include "estimator/refinement.hpp"
 #include "estimator/second_look.hpp"
 #include "eval/metrics.hpp"
 #include "evidence/mask_field.hpp"
 #include "gate/gate.hpp"
 #include "gate/one_rope.hpp"
+#include "refine/refined.hpp"
 
 namespace flowdlo::lab {
 namespace {
@@ -51,8 +53,8 @@ bool is_reread(const synth::SyntheticFrame& scene, weights::PriorKind kind, doub
 }
 
 std::optional<GateSample> measure(const synth::SyntheticFrame& scene, flow::Sampler* sampler,
-                                  field::Network* field, int draws, weights::PriorKind kind,
-                                  double rope_length_m) {
+                                  field::Network* field, refine::Network* refine, int draws,
+                                  weights::PriorKind kind, double rope_length_m) {
   const Frame frame = scene.frame();
   Timings timings;
   const auto conditions = estimator::gather(frame, rope_length_m, kind, timings);
@@ -73,7 +75,15 @@ std::optional<GateSample> measure(const synth::SyntheticFrame& scene, flow::Samp
       estimator::list_candidates(look, conditions->paths.rope_width_px, drawn->prediction,
                                  drawn->reports, drawn->assigned, frame, rope_length_m);
   for (const gate::Candidate& candidate : sample.candidates) {
-    const auto one = gate::one_rope(candidate.nodes, frame, conditions->paths.rope_width_px);
+    if (refine == nullptr) break;
+    auto nodes = candidate.draw >= 0
+                     ? Result<Centerline>(candidate.nodes)
+                     : refine::refined(estimator::curve_of(candidate), frame, *refine);
+    if (!nodes) return std::nullopt;
+    sample.refined.push_back(*nodes);
+  }
+  for (std::size_t i = 0; i < sample.candidates.size(); ++i) {
+    const auto one = gate::one_rope(sample.answer(i), frame, conditions->paths.rope_width_px);
     sample.doubted.push_back(one.doubts.empty() ? 0 : 1);
   }
   return sample;

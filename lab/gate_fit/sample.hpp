@@ -1,6 +1,7 @@
 // Sample: the candidates of one synthetic frame, beside the truth.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -9,6 +10,7 @@
 #include "field/network.hpp"
 #include "flow/sampler.hpp"
 #include "gate/candidate.hpp"
+#include "refine/network.hpp"
 #include "synth/synthetic_frame.hpp"
 #include "weights/variant.hpp"
 
@@ -21,7 +23,13 @@ struct GateSample {
   bool hard = false;
   Centerline truth{};                       ///< canonical direction
   std::vector<gate::Candidate> candidates;  ///< as estimator::list_candidates lists them
+  std::vector<Centerline> refined;  ///< [candidates] what is returned of each; empty: its own nodes
   std::vector<std::uint8_t> doubted;  ///< [candidates] 1: gate::one_rope doubts it; empty: unknown
+
+  /// What is returned where candidate `i` is chosen.
+  [[nodiscard]] const Centerline& answer(std::size_t i) const {
+    return refined.empty() ? candidates[i].nodes : refined[i];
+  }
 };
 
 /// Whether the frame is read again, through the strand field too.
@@ -29,10 +37,11 @@ struct GateSample {
                              double rope_length_m);
 
 /// Nothing where the engine finds no path or the device fails. Priors alone where `sampler` is
-/// null, without a strand field where `field` is. `rope_length_m` 0: unknown.
+/// null, without a strand field where `field` is, nodes unrefined where `refine` is.
+/// `rope_length_m` 0: unknown.
 [[nodiscard]] std::optional<GateSample> measure(const synth::SyntheticFrame& scene,
                                                 flow::Sampler* sampler, field::Network* field,
-                                                int draws, weights::PriorKind kind,
-                                                double rope_length_m);
+                                                refine::Network* refine, int draws,
+                                                weights::PriorKind kind, double rope_length_m);
 
 }  // namespace flowdlo::lab

@@ -13,7 +13,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr int kFormat = 5;  // rises with what a sample holds
+constexpr int kFormat = 6;  // rises with what a sample holds
 
 /// Calls `field` with the name and value of each number of a candidate.
 template <class Candidate, class Field>
@@ -79,6 +79,8 @@ Json to_json(const GateSample& sample) {
       {"index", sample.index}, {"scenario", sample.scenario},       {"easy", sample.easy},
       {"hard", sample.hard},   {"truth", nodes_json(sample.truth)}, {"candidates", Json::array()}};
   json["doubted"] = sample.doubted;
+  json["refined"] = Json::array();
+  for (const Centerline& nodes : sample.refined) json["refined"].push_back(nodes_json(nodes));
   for (const gate::Candidate& candidate : sample.candidates) {
     Json entry{{"nodes", nodes_json(candidate.nodes)},
                {"sigma_m", candidate.sigma_m},
@@ -97,6 +99,7 @@ GateSample sample_from(const Json& json) {
   json.at("hard").get_to(sample.hard);
   sample.truth = nodes_from(json.at("truth"));
   json.at("doubted").get_to(sample.doubted);
+  for (const Json& nodes : json.at("refined")) sample.refined.push_back(nodes_from(nodes));
   for (const Json& entry : json.at("candidates")) {
     gate::Candidate candidate;
     candidate.nodes = nodes_from(entry.at("nodes"));

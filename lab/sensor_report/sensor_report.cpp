@@ -18,12 +18,17 @@
 #include "command/report_commands.hpp"
 #include "command/wide_scenes.hpp"
 #include "command_line.hpp"
+#include "estimator/candidates.hpp"
 #include "estimator/conditions.hpp"
+#include "estimator/refinement.hpp"
 #include "eval/metrics.hpp"
 #include "geometry/camera.hpp"
+#include "reference/program.hpp"
+#include "refine/refined.hpp"
 #include "synth/synthetic_frame.hpp"
 #include "threads/count.hpp"
 #include "threads/team.hpp"
+#include "weights/field_weights.hpp"
 
 namespace {
 
@@ -36,6 +41,7 @@ constexpr double kRightWidths = 1;  // a node farther aside than this is on anot
 
 struct Options {
   flowdlo::lab::WideScenes wide{.part = "training"};
+  std::string field;  ///< empty: nodes as the prior has them
   int threads = 0;
 };
 
@@ -94,14 +100,26 @@ std::optional<Offsets> offsets(const Centerline& nodes, const Centerline& truth,
   return result;
 }
 
-/// Of the best prior; nothing where there is no path, or one on other strands.
-std::optional<Offsets> measured(const synth::SyntheticFrame& scene) {
+/// Of the best prior, refined where there is a network for it; nothing where there is no path, or
+/// the prior is on other strands.
+std::optional<Offsets> measured(const synth::SyntheticFrame& scene,
+                                flowdlo::refine::Network* network) {
   flowdlo::Timings timings;
   const auto conditions =
       estimator::gather(scene.frame(), 0, flowdlo::weights::PriorKind::kRefined, timings);
   if (!conditions) return std::nullopt;
   auto result =
       offsets(conditions->hypotheses.front().prior.nodes, scene.truth(), scene.meta.radius_m);
+  if (result && network != nullptr) {
+    const auto candidates =
+        estimator::list_candidates({.hypotheses = conditions->hypotheses},
+                                   conditions->paths.rope_width_px, {}, {}, {}, scene.frame(), 0);
+    const auto nodes =
+        flowdlo::refine::refined(estimator::curve_of(candidates.front()), scene.frame(), *network);
+    if (!nodes) return std::nullopt;
+    const auto refined = offsets(*nodes, scene.truth(), scene.meta.radius_m);
+    if (refined) result = refined;
+  }
   if (result) {
     result->sensor = scene.meta.camera.substr(0, scene.meta.camera.find(' '));
     result->width_px = scene.meta.width_px;
@@ -127,10 +145,30 @@ std::string text(const Row& row) {
 }
 
 int run(const Options& options) {
+  std::optional<flowdlo::weights::RefineWeights> weights;
+  if (!options.field.empty()) {
+    const auto loaded = flowdlo::weights::load_field(options.field);
+    if (!loaded || !loaded->refine) {
+      fmt::print(stderr, "{}\n",
+                 loaded ? options.field +
+                              ": expected a network that refines nodes, got none; make one with "
+                              "flowdlo-train refine"
+                        : loaded.error().message);
+      return 1;
+    }
+    weights = loaded->refine;
+  }
   std::map<std::string, std::array<Row, 2>> rows;
   std::mutex mutex;
   std::atomic<std::uint64_t> next = 0;
   flowdlo::threads::work_together(flowdlo::threads::count(options.threads), [&](int) {
+    std::optional<flowdlo::refine::Network> network;
+    if (weights) {
+      auto made = flowdlo::refine::Network::create(
+          *weights, [] { return flowdlo::reference::create_program(1); });
+      if (!made) return;
+      network = *std::move(made);
+    }
     for (std::uint64_t i = next++; i < options.wide.scenes; i = next++) {
       std::array<std::optional<Offsets>, 2> found;
       for (const std::size_t matched : {0, 1}) {
@@ -139,7 +177,7 @@ int run(const Options& options) {
                               options.wide.first + i, {.color = false, .matched = matched == 1});
         if (!scene) continue;
         if (matched == 1 && !scene->meta.camera.ends_with("matched")) continue;
-        found[matched] = measured(*scene);
+        found[matched] = measured(*scene, network ? &*network : nullptr);
       }
       if (!found[0] || !found[1]) continue;  // both, so that they compare
       const double px = found[0]->width_px;
@@ -173,6 +211,9 @@ void add_sensor_report(CLI::App& program, support::ExitCode& exit_code) {
       program, "sensor-report",
       "Offsets of the best prior along the ray and aside, by sensor, where it is right");
   add_options(app, options->wide);
+  app.add_option("--field", options->field,
+                 "Refine the nodes by the network in FILE, a strand field's .safetensors")
+      ->type_name("FILE");
   add_threads_option(app, options->threads);
   support::set_action(app, exit_code, [options] { return ::run(*options); });
 }

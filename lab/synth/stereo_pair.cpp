@@ -244,7 +244,9 @@ Result<std::vector<float>> disparities(const StereoRig& rig, const EyePicture& e
                                        double nearest_m) {
 #ifdef FLOWDLO_WITH_MATCHER
   const double most = rig.focal_px * rig.baseline_m / nearest_m;
-  const int steps = 16 * static_cast<int>(std::ceil((most + 1) / 16));
+  // OpenCV throws where it is to look farther than the picture is wide.
+  const int steps =
+      16 * std::min(static_cast<int>(std::ceil((most + 1) / 16)), (rig.width - kWindow_px) / 16);
   const auto image = [&](const std::vector<std::uint8_t>& of) {  // OpenCV has no view of constants
     return cv::Mat(rig.height, rig.width, CV_8UC1, const_cast<std::uint8_t*>(of.data()));
   };

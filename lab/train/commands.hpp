@@ -13,6 +13,7 @@ void add_export_command(CLI::App& app, int& exit_code);
 void add_golden_command(CLI::App& app, int& exit_code);
 /// Where the scene maker is part of the build.
 void add_field_commands(CLI::App& app, int argc, char** argv, int& exit_code);
+void add_refine_command(CLI::App& app, int argc, char** argv, int& exit_code);
 void add_curves_command(CLI::App& app, int& exit_code);
 
 }  // namespace flowdlo::train

@@ -23,6 +23,7 @@ int main(int argc, char** argv) {
   add_curves_command(app, exit_code);
 #ifdef FLOWDLO_WITH_SYNTH
   add_field_commands(app, argc, argv, exit_code);
+  add_refine_command(app, argc, argv, exit_code);
 #endif
   try {
     app.parse(argc, argv);

@@ -40,7 +40,8 @@ class Estimator:
     seed: 0..2**64 - 1; the same seed, frame and device give the same bits.
     prior: "auto", "thesis" or "refined".
     gate: "auto", "thesis" or "calibrated".
-    field: "auto", or "off": the network that sees strands which the mask merges.
+    field: "auto"; "strands": no network moves the nodes; or "off": none sees strands, which a mask
+      merges, either.
     field_weights: its .safetensors file; by default the one beside the weights.
     rope_length_m: of the whole rope, metres, where it is known: helps at crossings.
     ropes: how many `estimate_ropes` looks for, 1..32; 0: as many as there are.

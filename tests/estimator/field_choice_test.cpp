@@ -1,12 +1,15 @@
 // Which weights of a strand field an estimator takes, and what it says of those that do not fit.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 
 #include "../frame/temporary_folder.hpp"
 #include "flowdlo/estimator.hpp"
 #include "support/wave_frame.hpp"
+#include "weights/field_weights.hpp"
 #include "weights/location.hpp"
 
 namespace flowdlo {
@@ -51,6 +54,7 @@ TEST(FieldChoice, WeightsThatAreNoneAreRefusedUnlessTheFieldIsOff) {
 TEST(FieldChoice, AClearFrameHasTheSameNodesToTheLastBitWithoutIt) {
   const testing::WaveFrame wave;
   Config config = small(FLOWDLO_DEFAULT_WEIGHTS);
+  config.field = FieldChoice::kStrands;
   auto with = Estimator::create(config);
   config.field = FieldChoice::kOff;
   auto without = Estimator::create(config);
@@ -61,6 +65,51 @@ TEST(FieldChoice, AClearFrameHasTheSameNodesToTheLastBitWithoutIt) {
   EXPECT_EQ(a->readings, b->readings + 1);
   EXPECT_GT(a->confidence, 0.9F);
   EXPECT_GT(b->confidence, 0.9F);
+  for (std::size_t i = 0; i < kNodes; ++i) {
+    EXPECT_EQ(a->nodes[i].x, b->nodes[i].x);
+    EXPECT_EQ(a->nodes[i].z, b->nodes[i].z);
+  }
+}
+
+TEST(FieldChoice, TheNetworkThatRefinesMovesNodesByMillimetresAndChoosesAsBefore) {
+  const testing::WaveFrame wave;
+  Config config = small(FLOWDLO_DEFAULT_WEIGHTS);
+  auto with = Estimator::create(config);
+  config.field = FieldChoice::kStrands;
+  auto without = Estimator::create(config);
+  ASSERT_TRUE(with && without);
+  const auto a = with->estimate(wave.frame());
+  const auto b = without->estimate(wave.frame());
+  ASSERT_TRUE(a && b);
+  EXPECT_EQ(a->origin, b->origin);
+  EXPECT_EQ(a->sigma_m, b->sigma_m);
+  float farthest_m = 0;
+  for (std::size_t i = 0; i < kNodes; ++i) {
+    farthest_m = std::max(farthest_m,
+                          std::hypot(a->nodes[i].x - b->nodes[i].x, a->nodes[i].y - b->nodes[i].y,
+                                     a->nodes[i].z - b->nodes[i].z));
+  }
+  EXPECT_GT(farthest_m, 0);
+  EXPECT_LT(farthest_m, 0.01F);
+}
+
+TEST(FieldChoice, AFileWithoutTheNetworkThatRefinesLeavesTheNodes) {
+  const test::TemporaryFolder folder;
+  auto weights =
+      weights::load_field(fs::path(FLOWDLO_DEFAULT_WEIGHTS).parent_path() / "field.safetensors");
+  ASSERT_TRUE(weights);
+  weights->refine.reset();
+  Config config = small(FLOWDLO_DEFAULT_WEIGHTS);
+  config.field_weights = folder.path() / "field.safetensors";
+  ASSERT_TRUE(weights::save_field(*weights, config.field_weights));
+  auto without = Estimator::create(config);
+  config.field = FieldChoice::kStrands;
+  auto strands = Estimator::create(config);
+  ASSERT_TRUE(without && strands);
+  const testing::WaveFrame wave;
+  const auto a = without->estimate(wave.frame());
+  const auto b = strands->estimate(wave.frame());
+  ASSERT_TRUE(a && b);
   for (std::size_t i = 0; i < kNodes; ++i) {
     EXPECT_EQ(a->nodes[i].x, b->nodes[i].x);
     EXPECT_EQ(a->nodes[i].z, b->nodes[i].z);

@@ -89,9 +89,12 @@ class Hinted : public ::testing::Test {
   Star star_;
 
  private:
+  /// Nodes stay where a prior has them, so that they tell which one it is.
   static Estimator make() {
-    auto estimator = Estimator::create(
-        {.weights = FLOWDLO_DEFAULT_WEIGHTS, .device = "cpu", .quality = Quality::kFast});
+    auto estimator = Estimator::create({.weights = FLOWDLO_DEFAULT_WEIGHTS,
+                                        .device = "cpu",
+                                        .quality = Quality::kFast,
+                                        .field = FieldChoice::kStrands});
     if (!estimator) throw std::runtime_error(estimator.error().message);
     return *std::move(estimator);
   }
@@ -99,8 +102,10 @@ class Hinted : public ::testing::Test {
 };
 
 TEST_F(Hinted, WithoutAnyHintNothingChanges) {
-  auto plain = Estimator::create(
-      {.weights = FLOWDLO_DEFAULT_WEIGHTS, .device = "cpu", .quality = Quality::kFast});
+  auto plain = Estimator::create({.weights = FLOWDLO_DEFAULT_WEIGHTS,
+                                  .device = "cpu",
+                                  .quality = Quality::kFast,
+                                  .field = FieldChoice::kStrands});
   ASSERT_TRUE(plain);
   const auto estimate = plain->estimate(star_.frame());
   ASSERT_TRUE(estimate);

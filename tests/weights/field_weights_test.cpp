@@ -118,5 +118,55 @@ TEST_F(FieldWeightsTest, MoreChannelsThanKernelsTakeAreRefused) {
   EXPECT_EQ(fault(), "");
 }
 
+TEST_F(FieldWeightsTest, TheNetworkThatRefinesComesBackBesideTheField) {
+  weights_.refine = seeded_refine(3);
+  weights_.refine->notes = "trained on nothing";
+  ASSERT_TRUE(save_field(weights_, file()));
+  const auto loaded = load_field(file());
+  ASSERT_TRUE(loaded) << loaded.error().message;
+  ASSERT_TRUE(loaded->refine);
+  EXPECT_EQ(loaded->refine->notes, "trained on nothing");
+  EXPECT_EQ(loaded->tensors.size(), weights_.tensors.size());
+  ASSERT_EQ(loaded->refine->tensors.size(), refine_manifest().size());
+  const Tensor& got = loaded->refine->at("square.1.weight");
+  const Tensor& want = weights_.refine->at("square.1.weight");
+  EXPECT_EQ(got.shape, want.shape);
+  for (std::size_t i = 0; i < want.values.size(); ++i) {
+    ASSERT_NEAR(got.values[i], want.values[i], 1e-3F * std::abs(want.values[i]) + 1e-7F);
+  }
+}
+
+TEST_F(FieldWeightsTest, AFileWithoutTheNetworkThatRefinesIsFine) {
+  ASSERT_TRUE(save_field(weights_, file()));
+  const auto loaded = load_field(file());
+  ASSERT_TRUE(loaded);
+  EXPECT_FALSE(loaded->refine);
+}
+
+TEST_F(FieldWeightsTest, AnotherVersionOfTheNetworkThatRefinesIsRefused) {
+  weights_.refine = seeded_refine(3);
+  ASSERT_TRUE(save_field(weights_, file()));
+  std::string bytes = text();
+  const auto at = bytes.find("\"refine\":\"1\"");
+  ASSERT_NE(at, std::string::npos);
+  bytes.replace(at, 12, "\"refine\":\"2\"");
+  write(bytes);
+  EXPECT_THAT(fault(), HasSubstr("metadata refine: expected \"1\""));
+}
+
+TEST_F(FieldWeightsTest, TensorsOfANetworkThatRefinesNeedItsVersion) {
+  weights_.refine = seeded_refine(3);
+  weights_.refine->tensors.pop_back();
+  EXPECT_FALSE(save_field(weights_, file()));  // one is missing
+  weights_.refine = seeded_refine(3);
+  ASSERT_TRUE(save_field(weights_, file()));
+  std::string bytes = text();
+  const auto at = bytes.find("\"refine\":");
+  ASSERT_NE(at, std::string::npos);
+  bytes.replace(at, 8, "\"refin_\"");
+  write(bytes);
+  EXPECT_THAT(fault(), HasSubstr("refine.stem.weight"));
+}
+
 }  // namespace
 }  // namespace flowdlo::weights

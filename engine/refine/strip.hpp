@@ -1,0 +1,68 @@
+// Strip: what mask and depth show along a centerline and beside it, straightened out, and what is
+// known about its nodes: what the refining network is given.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "flowdlo/centerline.hpp"
+#include "flowdlo/frame.hpp"
+#include "weights/refine_weights.hpp"
+
+namespace flowdlo::refine {
+
+inline constexpr int kStationsOfNode = 4;
+inline constexpr int kStations = kStationsOfNode * kNodes;  ///< evenly between the nodes
+inline constexpr int kAcross = 16;                          ///< places across at each station
+inline constexpr float kAcrossSpacing = 0.25F;              ///< between those, widths of the rope
+
+/// Columns of a station: of each of these its places across, then what follows.
+enum Across {
+  kDepthOnMask,  ///< measured less the station's, plus a radius, in radii; 0 where not measured
+  kDepthBeside,  ///< the same off the mask
+  kMasked,       ///< 1 on the mask
+  kMeasured,     ///< 1 where a depth was measured
+  kAcrossPlanes,
+};
+enum Column {
+  kTurn = kAcrossPlanes * kAcross,  ///< of the image curve at the station, radians
+  kSlope,                           ///< sine of the angle between rope and image plane
+  kStep,                            ///< pixels between stations: log2 of widths, / 4
+  kInside,                          ///< 1 within the image
+  kSigma,                           ///< of the node that the station belongs to, as all that follow
+  kUnseen,                          ///< along the rope to a node with support, 20 radii
+  kUnsupported,
+  kFromMiddle,  ///< 0 in the rope's middle, 1 at its ends
+  kNearEnd,
+  kPixel,      ///< logarithms of what a pixel spans,
+  kNoise,      ///< of the depths' noise,
+  kLength,     ///< of the rope's length
+  kRadius,     ///< and radius,
+  kWidth,      ///< of its width in pixels,
+  kDistance,   ///< and of the node's depth
+  kThickness,  ///< radius by length
+  kBendDeep,   ///< second difference of the nodes, radii
+  kBendAlong,
+  kBendAside,
+  kColumnsUsed,
+};
+
+/// A hypothesis and what is known about it.
+struct Curve {
+  Centerline nodes{};
+  std::array<float, kNodes> sigma_m{};   ///< the prior's own
+  std::array<float, kNodes> unseen_m{};  ///< along the rope to the nearest node with support
+  float radius_m = 0;                    ///< of the rope
+  float pixel_m = 0;                     ///< what a pixel spans at the rope's depth
+  float noise_m = 0;                     ///< standard deviation of the depths on the mask
+};
+
+struct Strip {
+  std::vector<float> values;  ///< [kStations, weights::kRefineInputs], zero beyond kColumnsUsed
+};
+
+/// Nothing where a node is not in front of the camera, or the rope has no width.
+[[nodiscard]] std::optional<Strip> strip_along(const Curve& curve, const Frame& frame);
+
+}  // namespace flowdlo::refine

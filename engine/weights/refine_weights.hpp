@@ -1,0 +1,36 @@
+// RefineWeights: the network of room `refine`. Its tensors lie beside the strand field's, in the
+// same .safetensors file, under "refine."; a file without them is one without that network.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "weights/weights.hpp"
+
+namespace flowdlo::weights {
+
+inline constexpr std::string_view kRefineVersion = "1";  ///< metadata "refine": inputs and layers
+inline constexpr int kRefineInputs = 96;                 ///< of each station of a strip
+inline constexpr int kRefineStem = 32;                   ///< channels behind the first layer
+inline constexpr int kRefineWidth = 64;                  ///< channels of each convolution
+inline constexpr int kRefineSquares = 4;                 ///< convolutions of 3 x 3
+inline constexpr int kRefineOutputs = 16;  ///< columns that kernels take; two are used
+
+struct RefineWeights {
+  std::string notes;            ///< free text: how it was trained
+  std::vector<Tensor> tensors;  ///< exactly refine_manifest()'s, in its order
+
+  /// The tensor of that name, without "refine.". It must be one of the manifest's.
+  [[nodiscard]] const Tensor& at(std::string_view name) const;
+};
+
+/// Names and shapes: of each convolution a weight [out, taps, in] and a bias [out]. "stem",
+/// "square.0" and further, "head".
+[[nodiscard]] std::vector<Expected> refine_manifest();
+
+/// Noise of the size that keeps activations as large as inputs: the same values on every machine.
+[[nodiscard]] RefineWeights seeded_refine(std::uint64_t seed);
+
+}  // namespace flowdlo::weights

@@ -1,0 +1,290 @@
+#include "refining/trainer.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <random>
+#include <utility>
+
+namespace flowdlo::refining {
+namespace {
+
+namespace nn = torch::nn;
+using torch::Tensor;
+
+constexpr std::uint64_t kFolds = 5;  // one of which is held out
+constexpr int kNoteEvery = 200;
+constexpr double kSmooth = 0.1;  // radii; below it the loss is a parabola
+
+/// Runs of scenes, for shares of them come in turns.
+bool held_out(const StripSample& sample) { return sample.truth.scene / kFolds % kFolds == 0; }
+
+/// [kRefineInputs] where each column comes from in a mirrored strip.
+Tensor mirrored_columns() {
+  auto columns = torch::arange(weights::kRefineInputs, torch::kLong);
+  for (int plane = 0; plane < refine::kAcrossPlanes; ++plane) {
+    const int first = plane * refine::kAcross;
+    columns.slice(0, first, first + refine::kAcross)
+        .copy_(torch::arange(first + refine::kAcross - 1, first - 1, -1, torch::kLong));
+  }
+  return columns;
+}
+
+Tensor signs(std::initializer_list<int> turned) {
+  auto result = torch::ones(weights::kRefineInputs);
+  for (const int column : turned) result[column] = -1;
+  return result;
+}
+
+struct Batch {
+  Tensor strips;  // [n, kStations, kRefineInputs]
+  Tensor truth;   // [n, kNodes, 2]
+};
+
+/// Seen in a mirror, from the other end, or both.
+Batch varied(Batch batch, bool mirror, bool reverse) {
+  static const Tensor columns = mirrored_columns();
+  static const Tensor aside = torch::tensor({1.0F, -1.0F});
+  if (mirror) {
+    static const Tensor sign = signs({refine::kTurn, refine::kBendAside});
+    batch.strips = batch.strips.index_select(2, columns) * sign;
+    batch.truth = batch.truth * aside;
+  }
+  if (reverse) {
+    static const Tensor sign =
+        signs({refine::kTurn, refine::kSlope, refine::kBendAlong, refine::kBendAside});
+    batch.strips = batch.strips.flip(1).index_select(2, columns) * sign;
+    batch.truth = batch.truth.flip(1) * aside;
+  }
+  return batch;
+}
+
+Batch batch_of(const std::vector<StripSample>& samples, const std::vector<std::size_t>& which) {
+  const auto count = static_cast<std::int64_t>(which.size());
+  Batch batch{torch::empty({count, refine::kStations, weights::kRefineInputs}),
+              torch::empty({count, static_cast<std::int64_t>(kNodes), 2})};
+  for (std::int64_t i = 0; i < count; ++i) {
+    const StripSample& sample = samples[which[static_cast<std::size_t>(i)]];
+    std::copy(sample.strip.values.begin(), sample.strip.values.end(),
+              batch.strips[i].data_ptr<float>());
+    float* to = batch.truth[i].data_ptr<float>();
+    for (std::size_t node = 0; node < kNodes; ++node) {
+      *to++ = sample.truth.deep[node];
+      *to++ = sample.truth.aside[node];
+    }
+  }
+  return batch;
+}
+
+/// A scene counts by how far its nodes are off, so that none drowns the others. `harm` is what a
+/// node costs beside that which is worse than before.
+Tensor loss_of(const Tensor& said, const Tensor& truth, double harm) {
+  const Tensor scale = (0.15 + truth.abs().mean(1, true)).clamp_max(2);
+  const Tensor off = torch::sqrt((truth - said).square() + kSmooth * kSmooth);
+  const Tensor before = torch::sqrt(truth.square() + kSmooth * kSmooth);
+  return ((off + harm * torch::relu(off - before)) / scale).mean();
+}
+
+double rate_at(const Schedule& schedule, int step) {
+  const double warm = std::min(1.0, (step + 1.0) / std::max(1, schedule.warmup_steps));
+  const double fall = 0.5 * (1 + std::cos(std::numbers::pi * step / schedule.steps));
+  return warm * (schedule.final_rate + (schedule.rate - schedule.final_rate) * fall);
+}
+
+void follow(Network& average, const Network& network, double decay) {
+  const torch::NoGradGuard no_gradients;
+  const auto from = network->named_parameters();
+  for (auto& item : average->named_parameters()) {
+    item.value().mul_(decay).add_(from[item.key()], 1 - decay);
+  }
+}
+
+struct Sums {
+  int scenes = 0;
+  double deep[2] = {0, 0};
+  double aside[2] = {0, 0};
+  double index[2] = {0, 0};
+  std::vector<double> medians[2];
+};
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+void add(const StripSample& sample, const Tensor& said, Sums& sums) {
+  const auto values = said.accessor<float, 2>();
+  const double mm = 1000 * static_cast<double>(sample.truth.radius_m);
+  double index[2] = {0, 0};
+  for (std::size_t i = 0; i < kNodes; ++i) {
+    for (const int after : {0, 1}) {
+      const auto of = [&](float truth, int column) {
+        const float moved = values[static_cast<std::int64_t>(i)][column];
+        return mm * static_cast<double>(truth - static_cast<float>(after) * moved);
+      };
+      const double deep = of(sample.truth.deep[i], 0);
+      const double aside = of(sample.truth.aside[i], 1);
+      sums.deep[after] += std::abs(deep) / kNodes;
+      sums.aside[after] += std::abs(aside) / kNodes;
+      index[after] +=
+          std::hypot(deep, aside, mm * static_cast<double>(sample.truth.along[i])) / kNodes;
+    }
+  }
+  ++sums.scenes;
+  for (const int after : {0, 1}) {
+    sums.index[after] += index[after];
+    sums.medians[after].push_back(index[after]);
+  }
+}
+
+std::string row(const char* name, const Sums& sums) {
+  if (sums.scenes == 0) return "";
+  const auto both = [&](const double* values) {
+    return fmt::format("{:.2f}, {:.2f}", values[0] / sums.scenes, values[1] / sums.scenes);
+  };
+  return fmt::format("| {} | {} | {} | {} | {} | {:.2f}, {:.2f} |\n", name, sums.scenes,
+                     both(sums.deep), both(sums.aside), both(sums.index), median(sums.medians[0]),
+                     median(sums.medians[1]));
+}
+
+std::string table_of(Network& network, const std::vector<StripSample>& samples,
+                     double most_index_mm) {
+  const torch::NoGradGuard no_gradients;
+  Sums of_model;
+  Sums of_matched;
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    const StripSample& sample = samples[i];
+    if (!held_out(sample) || static_cast<double>(sample.truth.index_mm) > most_index_mm) continue;
+    const Tensor said = network->forward(batch_of(samples, {i}).strips)[0].contiguous();
+    add(sample, said, sample.truth.matched > 0 ? of_matched : of_model);
+  }
+  return "| depth | held-out scenes | deep, mm, before and after | aside | index error | median "
+         "index error |\n|---|---|---|---|---|---|\n" +
+         row("model of the noise", of_model) + row("matched", of_matched);
+}
+
+weights::Tensor laid_out(const std::string& name, const Tensor& weight, int rows) {
+  const Tensor taps = weight.detach().flatten(2).permute({0, 2, 1}).contiguous();
+  Tensor padded = torch::zeros({rows, taps.size(1), taps.size(2)});
+  padded.slice(0, 0, taps.size(0)).copy_(taps);
+  const float* const values = padded.data_ptr<float>();
+  return {name,
+          {rows, static_cast<int>(taps.size(1)), static_cast<int>(taps.size(2))},
+          {values, values + padded.numel()}};
+}
+
+}  // namespace
+
+NetworkImpl::NetworkImpl() {
+  const auto convolution = [](int in, int out, int side) {
+    return nn::Conv2d(nn::Conv2dOptions(in, out, side).padding(side / 2));
+  };
+  stem = register_module("stem", convolution(weights::kRefineInputs, weights::kRefineStem, 1));
+  register_module("squares", squares);
+  for (int i = 0; i < weights::kRefineSquares; ++i) {
+    auto square = convolution(i == 0 ? weights::kRefineStem : weights::kRefineWidth,
+                              weights::kRefineWidth, 3);
+    nn::init::kaiming_normal_(square->weight, 0, torch::kFanIn, torch::kReLU);
+    nn::init::zeros_(square->bias);
+    squares->push_back(square);
+  }
+  head = register_module("head", convolution(weights::kRefineWidth, 2, 1));
+  nn::init::zeros_(head->weight);
+  nn::init::zeros_(head->bias);
+}
+
+Tensor NetworkImpl::forward(const Tensor& strips) {
+  const auto count = strips.size(0);
+  Tensor x = strips
+                 .view({count, static_cast<std::int64_t>(kNodes), refine::kStationsOfNode,
+                        weights::kRefineInputs})
+                 .permute({0, 3, 2, 1});
+  x = torch::relu(stem->forward(x));
+  for (const auto& square : *squares) x = torch::relu(square->as<nn::Conv2d>()->forward(x));
+  return head->forward(x).mean(2).transpose(1, 2);
+}
+
+weights::RefineWeights exported(const Network& network, const std::string& notes) {
+  weights::RefineWeights result{notes, {}};
+  const auto put = [&](const std::string& name, const nn::Conv2dImpl& layer, int rows) {
+    result.tensors.push_back(laid_out("refine." + name + ".weight", layer.weight, rows));
+    Tensor bias = torch::zeros({rows});
+    bias.slice(0, 0, layer.bias.size(0)).copy_(layer.bias.detach());
+    const float* const values = bias.data_ptr<float>();
+    result.tensors.push_back({"refine." + name + ".bias", {rows}, {values, values + bias.numel()}});
+  };
+  put("stem", *network->stem, weights::kRefineStem);
+  for (std::size_t i = 0; i < network->squares->size(); ++i) {
+    put(fmt::format("square.{}", i), network->squares->at<nn::Conv2dImpl>(i),
+        weights::kRefineWidth);
+  }
+  put("head", *network->head, weights::kRefineOutputs);
+  return result;
+}
+
+Result<Trained> train(const Recipe& recipe, const std::vector<StripSample>& samples,
+                      const std::function<void(const std::string&)>& on_note) {
+  const Schedule& schedule = recipe.schedule;
+  std::vector<std::size_t> which;
+  std::vector<double> shares;
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    const StripTruth& truth = samples[i].truth;
+    if (held_out(samples[i]) || static_cast<double>(truth.index_mm) > schedule.most_index_mm) {
+      continue;
+    }
+    which.push_back(i);
+    shares.push_back(truth.matched > 0 ? schedule.matched_weight : 1);
+  }
+  constexpr std::size_t kLeast = 10;
+  if (which.size() < kLeast) {
+    return Error{ErrorCode::kBadInput,
+                 fmt::format("flowdlo-train refine: expected {} strips to train on at least, got "
+                             "{}; raise data.scenes",
+                             kLeast, which.size())};
+  }
+  torch::manual_seed(recipe.seed);
+  std::mt19937_64 random(recipe.seed);
+  std::discrete_distribution<std::size_t> draw(shares.begin(), shares.end());
+  Network network;
+  Network average;
+  follow(average, network, 0);
+  torch::optim::AdamW optimizer(network->parameters(), torch::optim::AdamWOptions(schedule.rate)
+                                                           .weight_decay(schedule.weight_decay)
+                                                           .betas({0.9, 0.98}));
+  double total = 0;
+  for (int step = 0; step < schedule.steps; ++step) {
+    for (auto& group : optimizer.param_groups()) {
+      static_cast<torch::optim::AdamWOptions&>(group.options()).lr(rate_at(schedule, step));
+    }
+    std::vector<std::size_t> drawn;
+    for (int i = 0; i < schedule.batch; ++i) drawn.push_back(which[draw(random)]);
+    const auto turns = random();
+    const Batch batch = varied(batch_of(samples, drawn), (turns & 1U) != 0, (turns & 2U) != 0);
+    const Tensor loss = loss_of(network->forward(batch.strips), batch.truth, schedule.harm);
+    const double value = loss.item<double>();
+    if (!std::isfinite(value)) {
+      return Error{ErrorCode::kInternal,
+                   fmt::format("flowdlo-train refine: expected a finite loss, got {} at step {}; "
+                               "lower schedule.rate",
+                               value, step)};
+    }
+    optimizer.zero_grad();
+    loss.backward();
+    if (schedule.clip_norm > 0) {
+      nn::utils::clip_grad_norm_(network->parameters(), schedule.clip_norm);
+    }
+    optimizer.step();
+    follow(average, network, std::min(schedule.ema_decay, 1 - 1 / (0.1 * step + 2)));
+    total += value;
+    if ((step + 1) % kNoteEvery == 0 && on_note) {
+      on_note(fmt::format("{}/{}  loss {:.4f}", step + 1, schedule.steps, total / kNoteEvery));
+      total = 0;
+    }
+  }
+  return Trained{average, table_of(average, samples, schedule.most_index_mm)};
+}
+
+}  // namespace flowdlo::refining
