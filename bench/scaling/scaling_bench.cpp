@@ -14,7 +14,7 @@
 
 #include "flowdlo/estimator.hpp"
 #include "flowdlo/frame_folder.hpp"
-#include "plot/panels.hpp"
+#include "pictures/panels.hpp"
 
 namespace flowdlo {
 namespace {
@@ -86,16 +86,16 @@ double model_ms(const Timings& timings) { return timings.model_ms; }
 double outside_ms(const Timings& timings) { return timings.total_ms - timings.model_ms; }
 
 /// Model's time over one field of Config, a line for each number of threads.
-plot::Panel model_panel(const Options& options, const FrameFolder& folder, const char* title,
-                        const char* name, int Config::*field, const std::vector<int>& values) {
-  plot::Panel panel;
+pictures::Panel model_panel(const Options& options, const FrameFolder& folder, const char* title,
+                            const char* name, int Config::*field, const std::vector<int>& values) {
+  pictures::Panel panel;
   panel.title = title;
   panel.x_name = name;
   panel.logarithmic = panel.logarithmic_x = values.back() > 20;
   panel.from_zero = !panel.logarithmic;
   panel.marked = true;
   for (const int threads : {1, 2}) {
-    plot::Line line{fmt::format("{} thread{}", threads, threads > 1 ? "s" : ""), {}, {}};
+    pictures::Line line{fmt::format("{} thread{}", threads, threads > 1 ? "s" : ""), {}, {}};
     for (const int value : values) {
       Config config{.weights = options.weights, .device = "cpu", .threads = threads};
       config.*field = value;
@@ -108,12 +108,12 @@ plot::Panel model_panel(const Options& options, const FrameFolder& folder, const
   return panel;
 }
 
-plot::Panel speedup_panel(const plot::Panel& draws) {
-  plot::Panel panel;
+pictures::Panel speedup_panel(const pictures::Panel& draws) {
+  pictures::Panel panel;
   panel.title = "speed-up of the model's part from 1 to 2 threads";
   panel.x_name = draws.x_name;
   panel.logarithmic_x = panel.from_zero = panel.marked = true;
-  plot::Line line{"1 thread / 2 threads", draws.lines[0].x, {}};
+  pictures::Line line{"1 thread / 2 threads", draws.lines[0].x, {}};
   for (std::size_t i = 0; i < line.x.size(); ++i) {
     line.y.push_back(draws.lines[0].y[i] / draws.lines[1].y[i]);
   }
@@ -121,7 +121,7 @@ plot::Panel speedup_panel(const plot::Panel& draws) {
   return panel;
 }
 
-plot::Panel mask_panel(const Options& options, const FrameFolder& folder) {
+pictures::Panel mask_panel(const Options& options, const FrameFolder& folder) {
   struct Part {
     const char* name;
     std::function<double(const Timings&)> time_ms;
@@ -130,7 +130,7 @@ plot::Panel mask_panel(const Options& options, const FrameFolder& folder) {
                                 {"path", [](const Timings& t) { return t.path_ms; }},
                                 {"prior", [](const Timings& t) { return t.prior_ms; }},
                                 {"mask field", [](const Timings& t) { return t.mask_field_ms; }}};
-  plot::Panel panel;
+  pictures::Panel panel;
   panel.title = "outside the model, ms, over the mask's size: 640 x 480 to 1920 x 1080";
   panel.x_name = "kilopixels";
   panel.from_zero = panel.marked = true;
@@ -163,14 +163,14 @@ int run(const Options& options) {
     fmt::print(stderr, "{}\n", folder.error().message);
     return 2;
   }
-  std::vector<plot::Panel> panels;
+  std::vector<pictures::Panel> panels;
   panels.push_back(model_panel(options, *folder, "model's part, ms, over draws D (K = 10)", "D",
                                &Config::draws, {1, 2, 4, 8, 16, 32, 64}));
   panels.push_back(model_panel(options, *folder, "model's part, ms, over steps K (D = 4)", "K",
                                &Config::euler_steps, {1, 2, 4, 7, 10, 15, 20}));
   panels.push_back(speedup_panel(panels.front()));
   panels.push_back(mask_panel(options, *folder));
-  const auto saved = plot::save_panels(panels, options.out);
+  const auto saved = pictures::save_panels(panels, options.out);
   if (!saved) fmt::print(stderr, "{}\n", saved.error().message);
   return saved ? 0 : 1;
 }

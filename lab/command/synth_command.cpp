@@ -13,9 +13,9 @@
 #include <vector>
 
 #include "choice.hpp"
-#include "command/contact_sheet.hpp"
 #include "command/synth_folder.hpp"
 #include "command_line.hpp"
+#include "pictures/contact_sheet.hpp"
 #include "progress_bar.hpp"
 #include "synth/synthetic_frame.hpp"
 #include "terminal.hpp"
@@ -176,7 +176,8 @@ Result<std::string> run_jobs(const SynthOptions& options) {
     said += '\n';
   }
   if (!options.sheet.empty()) {
-    if (auto saved = save_contact_sheet(options.sheet, crew.sheet()); !saved) return saved.error();
+    if (auto saved = pictures::save_contact_sheet(options.sheet, crew.sheet()); !saved)
+      return saved.error();
     said += fmt::format("{}: {} frames\n", options.sheet.string(), crew.sheet().size());
   }
   return said;

@@ -6,8 +6,8 @@
 #include <array>
 #include <opencv2/imgproc.hpp>
 
-#include "eval/canvas.hpp"
 #include "eval/space_view.hpp"
+#include "pictures/canvas.hpp"
 
 namespace flowdlo::eval {
 namespace {
@@ -39,9 +39,10 @@ std::vector<Panel> panels_of(const DataSet& data_set) {
     });
   };
   if (has("full")) panels.push_back({"full model, every draw", {{"full", {}}}});
-  panels.push_back(
-      {"evaluated model's draws and our estimate", {{"model", {}}, {"", kEstimateColor}}});
-  if (has("trackdlo")) panels.push_back({"TrackDLO-init", {{"trackdlo", kBaselineColor}}});
+  panels.push_back({"evaluated model's draws and our estimate",
+                    {{"model", {}}, {"", pictures::kEstimateColor}}});
+  if (has("trackdlo"))
+    panels.push_back({"TrackDLO-init", {{"trackdlo", pictures::kBaselineColor}}});
   return panels;
 }
 
@@ -50,10 +51,11 @@ std::string error_text(const Trial& trial, const std::string& method) {
   return outcome == nullptr ? "no valid output" : fmt::format("{:.2f} cm", 100 * outcome->index_m);
 }
 
-void draw_panel(const Trial& trial, const Panel& panel, const cv::Rect& place, Canvas& canvas) {
+void draw_panel(const Trial& trial, const Panel& panel, const cv::Rect& place,
+                pictures::Canvas& canvas) {
   cv::Mat view = canvas.panel(place);
   const SpaceView space(trial.truth, place.size());
-  space.draw(trial.truth, kTruthColor, 3, view);
+  space.draw(trial.truth, pictures::kTruthColor, 3, view);
   std::string text;
   for (const auto& [method, color] : panel.methods) {
     if (method.empty()) {
@@ -65,7 +67,8 @@ void draw_panel(const Trial& trial, const Panel& panel, const cv::Rect& place, C
     const auto found = trial.curves.find(method);
     if (found == trial.curves.end()) continue;
     for (std::size_t d = 0; d < found->second.size(); ++d) {
-      space.draw(found->second[d], color == cv::Scalar() ? draw_color(d) : color, 1, view);
+      space.draw(found->second[d], color == cv::Scalar() ? pictures::draw_color(d) : color, 1,
+                 view);
     }
   }
   canvas.write_over(text, {place.x + 4, place.y + place.height - 6}, 0.36);
@@ -101,9 +104,9 @@ Result<std::vector<std::uint8_t>> example_sheet_png(const DataSet& data_set) {
   const auto examples = fixed_examples(data_set);
   if (examples.empty()) return std::vector<std::uint8_t>();
   const auto panels = panels_of(data_set);
-  Canvas canvas(20 + (kWidth + 10) * static_cast<int>(panels.size()),
-                kTop + (kHeight + 26) * static_cast<int>(examples.size()) + 10);
-  canvas.legend(legend_of_draws("truth", kTruthColor), {10, 24});
+  pictures::Canvas canvas(20 + (kWidth + 10) * static_cast<int>(panels.size()),
+                          kTop + (kHeight + 26) * static_cast<int>(examples.size()) + 10);
+  canvas.legend(pictures::legend_of_draws("truth", pictures::kTruthColor), {10, 24});
   int y = kTop;
   for (const Trial* trial : examples) {
     canvas.write(trial->name + "; index errors, rings at the first nodes", {10, y + 14});

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
-#include "eval/canvas.hpp"
+#include "pictures/canvas.hpp"
 
 namespace flowdlo::eval {
 namespace {
@@ -28,9 +28,10 @@ struct Bar {
 };
 
 std::vector<Bar> bars_of(const DataSet& data_set) {
-  std::vector<Bar> bars{{kBaseline, "TrackDLO-init", kBaselineColor}};
-  if (any_has(data_set.trials, "full")) bars.push_back({"full", "full model", draw_color(0)});
-  bars.push_back({"estimate", "our estimate", kEstimateColor});
+  std::vector<Bar> bars{{kBaseline, "TrackDLO-init", pictures::kBaselineColor}};
+  if (any_has(data_set.trials, "full"))
+    bars.push_back({"full", "full model", pictures::draw_color(0)});
+  bars.push_back({"estimate", "our estimate", pictures::kEstimateColor});
   return bars;
 }
 
@@ -39,7 +40,7 @@ int length_of(double cm) {
   return static_cast<int>(kPanel * std::clamp(share, 0.0, 1.0));
 }
 
-void draw_axis(const char* title, int left, int bottom, Canvas& canvas) {
+void draw_axis(const char* title, int left, int bottom, pictures::Canvas& canvas) {
   canvas.write(title, {left, kTop - 14}, 0.5);
   for (int decade = 0; decade <= static_cast<int>(kDecades); ++decade) {
     const double cm = kLeast_cm * std::pow(10.0, decade);
@@ -49,7 +50,8 @@ void draw_axis(const char* title, int left, int bottom, Canvas& canvas) {
   }
 }
 
-void draw_group(const SceneGroup& group, const std::vector<Bar>& bars, int y, Canvas& canvas) {
+void draw_group(const SceneGroup& group, const std::vector<Bar>& bars, int y,
+                pictures::Canvas& canvas) {
   std::vector<std::string> methods;
   int valid = 0;
   for (const Bar& bar : bars) methods.emplace_back(bar.method);
@@ -82,7 +84,7 @@ Result<std::vector<std::uint8_t>> paired_bars_png(const DataSet& data_set) {
   if (!run) return std::vector<std::uint8_t>();
   const auto bars = bars_of(data_set);
   const int bottom = kTop + kRow * static_cast<int>(groups.size());
-  Canvas canvas(kNames + 2 * kPanel + kGap + 60, bottom + 40);
+  pictures::Canvas canvas(kNames + 2 * kPanel + kGap + 60, bottom + 40);
   std::vector<std::pair<std::string, cv::Scalar>> entries;
   for (const Bar& bar : bars) entries.emplace_back(bar.title, bar.color);
   canvas.legend(entries, {kNames, 24});

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
-#include "eval/canvas.hpp"
 #include "flowdlo/frame_folder.hpp"
+#include "pictures/canvas.hpp"
 
 namespace flowdlo::eval {
 namespace {
@@ -63,7 +63,7 @@ void draw(const Centerline& nodes, const Intrinsics& camera, const Cut& cut,
   cv::circle(panel, line.front(), 5, color, 2, cv::LINE_AA);
 }
 
-void draw_frame(const Trial& trial, const FrameFolder& folder, int y, Canvas& canvas) {
+void draw_frame(const Trial& trial, const FrameFolder& folder, int y, pictures::Canvas& canvas) {
   const Cut cut = cut_of(folder);
   for (int column = 0; column < 3; ++column) {
     cv::Mat panel = canvas.panel({10 + column * (kSide + 10), y + 20, kSide, kSide});
@@ -72,17 +72,17 @@ void draw_frame(const Trial& trial, const FrameFolder& folder, int y, Canvas& ca
       const auto found = trial.curves.find(method);
       if (found == trial.curves.end()) return;
       for (std::size_t d = 0; d < found->second.size(); ++d) {
-        draw(found->second[d], folder.intrinsics, cut, color == nullptr ? draw_color(d) : *color,
-             width, panel);
+        draw(found->second[d], folder.intrinsics, cut,
+             color == nullptr ? pictures::draw_color(d) : *color, width, panel);
       }
     };
     if (column == 0) {
       all("model", nullptr, 1);
-      all("prior", &kPriorColor, 3);
+      all("prior", &pictures::kPriorColor, 3);
     } else if (column == 1 && trial.answered()) {
-      draw(trial.nodes, folder.intrinsics, cut, kEstimateColor, 2, panel);
+      draw(trial.nodes, folder.intrinsics, cut, pictures::kEstimateColor, 2, panel);
     } else if (column == 2) {
-      all("trackdlo", &kBaselineColor, 2);
+      all("trackdlo", &pictures::kBaselineColor, 2);
     }
   }
   const Account* baseline = trial.account("trackdlo");
@@ -107,8 +107,9 @@ Result<std::vector<std::uint8_t>> real_overlay_png(const DataSet& data_set) {
     if (folder) frames.emplace_back(trial, *std::move(folder));
   }
   if (frames.empty()) return std::vector<std::uint8_t>();
-  Canvas canvas(20 + 3 * (kSide + 10), kTop + (kSide + 30) * static_cast<int>(frames.size()));
-  canvas.legend(legend_of_draws("prior", kPriorColor), {10, 24});
+  pictures::Canvas canvas(20 + 3 * (kSide + 10),
+                          kTop + (kSide + 30) * static_cast<int>(frames.size()));
+  canvas.legend(pictures::legend_of_draws("prior", pictures::kPriorColor), {10, 24});
   int y = kTop - 10;
   for (const auto& [trial, folder] : frames) {
     draw_frame(*trial, folder, y, canvas);

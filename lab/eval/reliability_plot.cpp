@@ -6,8 +6,8 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
-#include "eval/canvas.hpp"
 #include "eval/coverage_tables.hpp"
+#include "pictures/canvas.hpp"
 
 namespace flowdlo::eval {
 namespace {
@@ -22,7 +22,7 @@ constexpr int kCounts = 70;  // height of the bars below
 Result<std::vector<std::uint8_t>> reliability_png(const DataSet& data_set) {
   const auto bins = reliability(data_set.trials);
   if (bins.empty()) return std::vector<std::uint8_t>();
-  Canvas canvas(kLeft + kSide + 50, kTop + kSide + kCounts + 70);
+  pictures::Canvas canvas(kLeft + kSide + 50, kTop + kSide + kCounts + 70);
   const auto at = [](double said, double was) {
     return cv::Point(kLeft + static_cast<int>(said * kSide),
                      kTop + static_cast<int>((1 - was) * kSide));
@@ -34,7 +34,7 @@ Result<std::vector<std::uint8_t>> reliability_png(const DataSet& data_set) {
     canvas.write_left_of(fmt::format("{} %", 20 * fifth), at(0, share) + cv::Point(-8, 4), 0.38);
     canvas.write_centred(fmt::format("{:.1f}", share), at(share, 0) + cv::Point(0, 18), 0.38);
   }
-  cv::line(canvas.picture(), at(0, 0), at(1, 1), kPriorColor, 1, cv::LINE_AA);
+  cv::line(canvas.picture(), at(0, 0), at(1, 1), pictures::kPriorColor, 1, cv::LINE_AA);
   int most = 1;
   for (const ReliabilityBin& bin : bins) most = std::max(most, bin.scenes);
   const int floor = kTop + kSide + 30 + kCounts;
@@ -43,13 +43,13 @@ Result<std::vector<std::uint8_t>> reliability_png(const DataSet& data_set) {
     const cv::Point here = at(bin.said, bin.was);
     const int radius = 3 + static_cast<int>(7 * std::sqrt(static_cast<double>(bin.scenes) / most));
     if (i > 0) {
-      cv::line(canvas.picture(), at(bins[i - 1].said, bins[i - 1].was), here, kEstimateColor, 1,
-               cv::LINE_AA);
+      cv::line(canvas.picture(), at(bins[i - 1].said, bins[i - 1].was), here,
+               pictures::kEstimateColor, 1, cv::LINE_AA);
     }
-    cv::circle(canvas.picture(), here, radius, kEstimateColor, cv::FILLED, cv::LINE_AA);
+    cv::circle(canvas.picture(), here, radius, pictures::kEstimateColor, cv::FILLED, cv::LINE_AA);
     const int height = kCounts * bin.scenes / most;
     cv::rectangle(canvas.picture(), {here.x - 10, floor - height, 20, std::max(1, height)},
-                  kEstimateColor, cv::FILLED);
+                  pictures::kEstimateColor, cv::FILLED);
     canvas.write_centred(std::to_string(bin.scenes), {here.x, floor + 16}, 0.36);
   }
   canvas.write("share of estimates with an index error under 1 cm", {kLeft - 50, kTop - 42}, 0.42);

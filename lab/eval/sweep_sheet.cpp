@@ -8,10 +8,10 @@
 #include <iterator>
 #include <opencv2/imgproc.hpp>
 
-#include "eval/canvas.hpp"
 #include "eval/contenders.hpp"
 #include "eval/example_sheet.hpp"
 #include "eval/space_view.hpp"
+#include "pictures/canvas.hpp"
 
 namespace flowdlo::eval {
 namespace {
@@ -22,8 +22,9 @@ struct Line {
   cv::Scalar color;
   const ThesisSweep* thesis;
 };
-const std::array<Line, 2> kLines{{{"full", "velocity", draw_color(0), &kThesisVelocity},
-                                  {"direct", "direct state", draw_color(1), &kThesisDirect}}};
+const std::array<Line, 2> kLines{
+    {{"full", "velocity", pictures::draw_color(0), &kThesisVelocity},
+     {"direct", "direct state", pictures::draw_color(1), &kThesisDirect}}};
 constexpr int kLeft = 70;
 constexpr int kTop = 50;
 constexpr int kPlotWidth = 520;
@@ -47,7 +48,7 @@ cv::Point plot_point(int steps, double cm, double most_cm) {
 }
 
 void draw_line(const std::vector<double>& errors, const cv::Scalar& color, bool thesis,
-               double most_cm, Canvas& canvas) {
+               double most_cm, pictures::Canvas& canvas) {
   for (std::size_t i = 0; i < errors.size(); ++i) {
     const cv::Point here = plot_point(kSweep[i], errors[i], most_cm);
     cv::circle(canvas.picture(), here, thesis ? 3 : 4, color, thesis ? 1 : cv::FILLED, cv::LINE_AA);
@@ -83,7 +84,7 @@ Result<std::vector<std::uint8_t>> sweep_plot_png(const DataSet& data_set) {
     return std::vector<std::uint8_t>();
   }
   most_cm *= 1.1;
-  Canvas canvas(kLeft + kPlotWidth + 40, kTop + kPlotHeight + 50);
+  pictures::Canvas canvas(kLeft + kPlotWidth + 40, kTop + kPlotHeight + 50);
   for (int i = 0; i <= 4; ++i) {
     const int y = kTop + i * kPlotHeight / 4;
     canvas.grid_line({kLeft, y}, {kLeft + kPlotWidth, y});
@@ -118,9 +119,11 @@ Result<std::vector<std::uint8_t>> sweep_sheet_png(const DataSet& data_set) {
     }
   }
   if (rows.empty()) return std::vector<std::uint8_t>();
-  Canvas canvas(20 + (kWidth + 10) * static_cast<int>(std::size(kSweep)),
-                kTop + (kHeight + 26) * static_cast<int>(rows.size()));
-  canvas.legend({{"truth", kTruthColor}, {"velocity", draw_color(0)}, {"direct", draw_color(1)}},
+  pictures::Canvas canvas(20 + (kWidth + 10) * static_cast<int>(std::size(kSweep)),
+                          kTop + (kHeight + 26) * static_cast<int>(rows.size()));
+  canvas.legend({{"truth", pictures::kTruthColor},
+                 {"velocity", pictures::draw_color(0)},
+                 {"direct", pictures::draw_color(1)}},
                 {10, 24});
   int y = kTop - 10;
   for (const auto& [trial, line] : rows) {
@@ -130,7 +133,7 @@ Result<std::vector<std::uint8_t>> sweep_sheet_png(const DataSet& data_set) {
       const cv::Rect place(x, y + 20, kWidth, kHeight);
       cv::Mat view = canvas.panel(place);
       const SpaceView space(trial->truth, place.size());
-      space.draw(trial->truth, kTruthColor, 3, view);
+      space.draw(trial->truth, pictures::kTruthColor, 3, view);
       const auto found = trial->curves.find(swept(line->model, steps));
       if (found != trial->curves.end() && !found->second.empty()) {
         space.draw(found->second.front(), line->color, 2, view);

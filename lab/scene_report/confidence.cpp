@@ -205,7 +205,7 @@ void draw_wrong(const Sample& sample, const std::string& folder) {
   const std::string file = folder + "/" + sample.kind + "_" + std::to_string(sample.seed) + ".png";
   auto truth = scene.truth;
   if (!flowdlo::prior::is_canonical(truth)) std::reverse(truth.begin(), truth.end());
-  if (!flowdlo::lab::save_overlay(file, scene, truth, judgement.best->refined)) {
+  if (!flowdlo::pictures::save_overlay(file, scene, truth, judgement.best->refined)) {
     std::fprintf(stderr, "%s: cannot be written\n", file.c_str());
   }
 }

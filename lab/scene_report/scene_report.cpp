@@ -95,7 +95,7 @@ bool show_worst(std::vector<SceneOutcome> outcomes, const Options& options) {
     if (options.overlays.empty()) continue;
     const auto scene = flowdlo::lab::make_scene(bad.kind, bad.seed);
     const std::string file = options.overlays + "/" + name + ".png";
-    if (flowdlo::lab::save_overlay(file, scene, bad.truth, bad.prior)) continue;
+    if (flowdlo::pictures::save_overlay(file, scene, bad.truth, bad.prior)) continue;
     std::fprintf(stderr, "%s: cannot be written; name an existing folder\n", file.c_str());
     drawn = false;
   }

@@ -9,13 +9,13 @@
 #include <string>
 #include <vector>
 
-#include "plot/panels.hpp"
+#include "pictures/panels.hpp"
 
 namespace flowdlo::train {
 namespace {
 
-using plot::Line;
-using plot::Panel;
+using pictures::Line;
+using pictures::Panel;
 using Row = std::map<std::string, std::string>;
 
 std::vector<Row> read_rows(const std::filesystem::path& file) {
@@ -88,7 +88,7 @@ Result<void> plot_curves(const std::filesystem::path& folder) {
     panels[2].lines.push_back(group_line(checks, group, "prior_cm", true));
     panels[3].lines.push_back(group_line(checks, group, "ratio", false));
   }
-  return plot::save_panels(panels, folder / "curves.png");
+  return pictures::save_panels(panels, folder / "curves.png");
 }
 
 }  // namespace flowdlo::train

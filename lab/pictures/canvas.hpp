@@ -9,7 +9,7 @@
 
 #include "flowdlo/result.hpp"
 
-namespace flowdlo::eval {
+namespace flowdlo::pictures {
 
 /// Colours of the figures, BGR; those of the thesis' figures where it has some.
 inline const cv::Scalar kTruthColor{60, 160, 40};
@@ -50,4 +50,4 @@ class Canvas {
   cv::Mat picture_;
 };
 
-}  // namespace flowdlo::eval
+}  // namespace flowdlo::pictures

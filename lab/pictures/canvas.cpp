@@ -1,11 +1,11 @@
-#include "eval/canvas.hpp"
+#include "pictures/canvas.hpp"
 
 #include <array>
 #include <opencv2/imgproc.hpp>
 
 #include "mat/mat_png.hpp"
 
-namespace flowdlo::eval {
+namespace flowdlo::pictures {
 namespace {
 
 const cv::Scalar kInk{40, 40, 40};
@@ -67,4 +67,4 @@ void Canvas::grid_line(cv::Point from, cv::Point to) { cv::line(picture_, from, 
 
 Result<std::vector<std::uint8_t>> Canvas::png() const { return mat::encode_png(picture_); }
 
-}  // namespace flowdlo::eval
+}  // namespace flowdlo::pictures

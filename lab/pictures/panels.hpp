@@ -8,7 +8,7 @@
 
 #include "flowdlo/result.hpp"
 
-namespace flowdlo::plot {
+namespace flowdlo::pictures {
 
 struct Line {
   std::string name;
@@ -31,4 +31,4 @@ struct Panel {
 [[nodiscard]] Result<void> save_panels(std::span<const Panel> panels,
                                        const std::filesystem::path& file);
 
-}  // namespace flowdlo::plot
+}  // namespace flowdlo::pictures

@@ -1,4 +1,4 @@
-#include "plot/panels.hpp"
+#include "pictures/panels.hpp"
 
 #include <fmt/format.h>
 
@@ -10,7 +10,7 @@
 
 #include "mat/mat_file.hpp"
 
-namespace flowdlo::plot {
+namespace flowdlo::pictures {
 namespace {
 
 constexpr int kWidth = 680;  // of a panel, px
@@ -112,4 +112,4 @@ Result<void> save_panels(std::span<const Panel> panels, const std::filesystem::p
   return mat::save_png(file, page);
 }
 
-}  // namespace flowdlo::plot
+}  // namespace flowdlo::pictures

@@ -1,4 +1,4 @@
-#include "command/contact_sheet.hpp"
+#include "pictures/contact_sheet.hpp"
 
 #include <fmt/format.h>
 
@@ -11,7 +11,7 @@
 #include "durability_choice.hpp"
 #include "mat/mat_file.hpp"
 
-namespace flowdlo::lab {
+namespace flowdlo::pictures {
 namespace {
 
 constexpr int kWidth_px = 300;  // of one picture
@@ -135,4 +135,4 @@ Result<void> save_contact_sheet(const std::filesystem::path& file,
   return mat::save_png(file, sheet, support::chosen_durability());
 }
 
-}  // namespace flowdlo::lab
+}  // namespace flowdlo::pictures
