@@ -197,9 +197,13 @@ def test_diagnostics_say_the_rate_and_whether_it_is_good(master, bag):
         play(bag)
         assert len(node.wait_for(len(STAMPS))) == len(slow.wait_for(len(STAMPS)))
         time.sleep(1.2)  # diagnostics come once a second
-        level, _, values = node.said("ropes topic status")
-        assert 0.5 < float(values["Actual frequency (Hz)"]) < 4
+        until = time.monotonic() + 20
+        _, _, values = node.said("ropes topic status")
+        while int(values["Events since startup"]) < len(STAMPS) and time.monotonic() < until:
+            time.sleep(0.2)  # and later where the machine is busy
+            _, _, values = node.said("ropes topic status")
         assert int(values["Events since startup"]) == len(STAMPS)
+        assert 0.2 < float(values["Actual frequency (Hz)"]) < 4
         level, message, values = node.said("estimate")
         assert (byte_of(level), message) == (byte_of(DiagnosticStatus.OK), "ropes are seen")
         assert float(values["milliseconds a frame"]) > 0
