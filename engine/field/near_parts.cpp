@@ -20,8 +20,8 @@ constexpr float kFrom = 0.35F;      // of the way from one look's width to the o
 constexpr float kTo = 0.65F;        // begin to mix and end to
 
 // Of the rope's pixels that are asked for a width. Chosen on 139 `several` training scenes (1000000
-// to 1000149), of which 0.5 and 0.8 part as many ropes, and on `wide` ones 3000000 to 3000499, of
-// which 0.5 changes the choice in more; training has shown the network up to one octave.
+// to 1000149), of which 0.5 and 0.8 part as many ropes: the larger one costs less; training has
+// shown the network up to one octave.
 constexpr float kSure = 0.5F;            // is rope
 constexpr float kWide = 0.8F;            // octaves beyond the expected width
 constexpr float kLeastShare = 0.04F;     // so many of all are that wide, and

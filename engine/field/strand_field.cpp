@@ -103,7 +103,8 @@ float width_px(const StrandField& seen) {
   return seen_width(seen.channels) * expected_width_px(seen.region);
 }
 
-Result<StrandField> see(const Frame& frame, float rope_width_px, Network& network) {
+Result<StrandField> see(const Frame& frame, float rope_width_px, Network& network,
+                        bool near_parts) {
   const geometry::MaskBox mask = geometry::mask_box(frame);
   const image::Rect box{mask.left, mask.top, mask.width, mask.height};
   if (box.empty()) {
@@ -125,6 +126,7 @@ Result<StrandField> see(const Frame& frame, float rope_width_px, Network& networ
     if (share >= kNarrow) break;
     width_px *= share;
   }
+  if (!near_parts) return result;
   const auto nearer = look_at_near_parts(frame, box, network, result);
   if (!nearer) return nearer.error();
   return result;

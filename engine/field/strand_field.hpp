@@ -27,10 +27,11 @@ inline constexpr float kLeastWidth = 0.5F;
 
 /// `rope_width_px` is the rope's width in the frame as far as it is known. Where the field itself
 /// says that the rope is narrower than kNarrow of that, as in a mask that merges strands, it is
-/// asked again at the width that it says; where parts of the rope come much nearer to the camera
-/// than its middle, those are looked at once more, less magnified (NearParts). Expects a valid
+/// asked again at the width that it says. With `near_parts`, parts that come much nearer to the
+/// camera than the middle are looked at once more, less magnified (NearParts). Expects a valid
 /// frame with a mask. Fails with kNoEvidence where the mask is empty or spreads over more than is
 /// looked at, or as Network::see does.
-[[nodiscard]] Result<StrandField> see(const Frame& frame, float rope_width_px, Network& network);
+[[nodiscard]] Result<StrandField> see(const Frame& frame, float rope_width_px, Network& network,
+                                      bool near_parts = false);
 
 }  // namespace flowdlo::field

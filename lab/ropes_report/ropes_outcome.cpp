@@ -32,7 +32,7 @@ Vector3d vector_of(const Point3& p) { return {p.x, p.y, p.z}; }
 std::optional<field::Axes> seen_axes(const Frame& frame, const RopesRun& run, float rope_width_px,
                                      RopesOutcome& outcome) {
   const auto begin = std::chrono::steady_clock::now();
-  const auto seen = field::see(frame, rope_width_px, *run.field);
+  const auto seen = field::see(frame, rope_width_px, *run.field, true);
   if (seen) outcome.axes = field::axes(*seen);
   const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - begin;
   outcome.field_ms = took.count();

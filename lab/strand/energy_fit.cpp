@@ -299,7 +299,7 @@ flowdlo::Result<Outcome> measure(synth::Split split, const std::string& part, st
   if (ring) return outcome;  // it begins nowhere
   const auto masked = read_mask(frame, one_rope);
   if (!masked) return masked.error();
-  const auto seen = field::see(frame, masked->rope_width_px, network);
+  const auto seen = field::see(frame, masked->rope_width_px, network, !one_rope);
   if (!seen) return seen.error();
   const auto axes = field::axes(*seen);
   const auto region = path::clean(frame, one_rope ? 1 : 0);

@@ -135,7 +135,7 @@ TEST(NearParts, ARopeThatComesNearHasOneLineAllAlong) {
                                  [] { return reference::create_program(1); });
   ASSERT_TRUE(network);
   const Approaching scene;
-  const auto seen = see(scene.frame(), 6, *network);
+  const auto seen = see(scene.frame(), 6, *network, true);
   ASSERT_TRUE(seen) << seen.error().message;
   for (int u = 40; u < 600; u += 10) {
     int lines = 0;
