@@ -183,7 +183,7 @@ double Estimator::Impl::sampling_ms(const estimator::Rereading& rereading) const
   return model_cost.of(1) + gate_cost.of(1) + alone_ms;
 }
 
-/// What the strand field shows of several ropes; nothing without one, or where it would take too long.
+/// What the strand field shows of several ropes; nothing without one, or where time is short.
 std::optional<field::Axes> Estimator::Impl::axes(const Frame& frame, float rope_width_px,
                                                  const estimator::Budget& budget) {
   if (!networks.field) return std::nullopt;

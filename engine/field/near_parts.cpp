@@ -1,13 +1,12 @@
 #include "field/near_parts.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
-#include <iterator>
+#include <vector>
 
 #include "field/channel.hpp"
-#include "field/view.hpp"
+#include "field/surface.hpp"
 #include "geometry/quantile.hpp"
 
 namespace flowdlo::field {
@@ -132,15 +131,19 @@ BlockMap NearParts::needed(const BlockMap& blocks, const Region& other, const Re
 }
 
 void blend(StrandField& field, const StrandField& other, const NearParts& parts, float octaves) {
-  const FieldView view(other);
+  const Surface surface(other.channels);
   for (int v = 0; v < field.channels.height(); ++v) {
     auto* at = field.channels.row(v);
     for (int u = 0; u < field.channels.width(); ++u) {
       const float share = parts.share(u, v);
       if (share <= 0) continue;
-      auto seen = view.at(field.region.to_frame({static_cast<float>(u), static_cast<float>(v)}));
-      seen[kWidth] += octaves;
-      for (std::size_t c = 0; c < seen.size(); ++c) at[u][c] += share * (seen[c] - at[u][c]);
+      const Eigen::Vector2f place = other.region.to_region(
+          field.region.to_frame({static_cast<float>(u), static_cast<float>(v)}));
+      for (int c = 0; c < kChannels; ++c) {
+        const float seen =
+            surface.at(place, static_cast<Channel>(c)) + (c == kWidth ? octaves : 0.0F);
+        at[u][c] += share * (seen - at[u][c]);
+      }
     }
   }
 }

@@ -2,8 +2,6 @@
 // than the region was made for; another look, less magnified, sees those parts as it should.
 #pragma once
 
-#include <vector>
-
 #include "field/block_map.hpp"
 #include "field/channel.hpp"
 #include "field/region.hpp"

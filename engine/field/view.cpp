@@ -62,23 +62,6 @@ float FieldView::shown(const Vector2f& p, const Vector2f& along, bool below_only
   return std::min(1.0F, most);
 }
 
-std::array<float, kChannels> FieldView::at(const Vector2f& p) const {
-  const Vector2f q = to_region(p);
-  const auto left = static_cast<int>(std::floor(q.x()));
-  const auto top = static_cast<int>(std::floor(q.y()));
-  std::array<float, kChannels> values{};
-  for (const int v : {top, top + 1}) {
-    for (const int u : {left, left + 1}) {
-      if (u < 0 || v < 0 || u >= channels_.width() || v >= channels_.height()) continue;
-      const float share = (1 - std::abs(q.x() - static_cast<float>(u))) *
-                          (1 - std::abs(q.y() - static_cast<float>(v)));
-      const auto& pixel = channels_.at(v, u);
-      for (std::size_t c = 0; c < values.size(); ++c) values[c] += share * pixel[c];
-    }
-  }
-  return values;
-}
-
 float FieldView::width_px(const Vector2f& p) const {
   const Surface surface(channels_);
   const Vector2f at = to_region(p);

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <array>
 
 #include "field/strand_field.hpp"
 
@@ -23,9 +22,6 @@ class FieldView {
   /// not `below_only` the one on top.
   [[nodiscard]] float shown(const Eigen::Vector2f& p, const Eigen::Vector2f& along,
                             bool below_only) const;
-
-  /// What the field says of `p`, between its pixels; zeros where it says nothing.
-  [[nodiscard]] std::array<float, kChannels> at(const Eigen::Vector2f& p) const;
 
   /// Width of the strand that shows at `p`, pixels of the frame; 0 where none does.
   [[nodiscard]] float width_px(const Eigen::Vector2f& p) const;

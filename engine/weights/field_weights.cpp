@@ -12,10 +12,10 @@
 #include <map>
 
 #include "files/whole_file.hpp"
-#include "random/philox.hpp"
 #include "weights/fdw.hpp"
 #include "weights/file.hpp"
 #include "weights/safetensors.hpp"
+#include "weights/seeded_noise.hpp"
 #include "weights/stored_tensor.hpp"
 
 namespace flowdlo::weights {
@@ -192,22 +192,7 @@ Result<void> save_field(const FieldWeights& weights, const std::filesystem::path
 }
 
 FieldWeights seeded_field(const FieldSizes& sizes, std::uint64_t seed) {
-  FieldWeights weights{"seeded noise", "none", "", sizes, {}, {}};
-  std::uint64_t stream = 0;
-  for (Expected& expected : field_manifest(sizes)) {
-    Tensor tensor{std::move(expected.name), std::move(expected.shape), {}};
-    std::size_t count = 1;
-    for (const int extent : tensor.shape) count *= static_cast<std::size_t>(extent);
-    const bool bias = tensor.shape.size() == 1;
-    const double inputs = bias ? 100 : tensor.shape[1] * tensor.shape[2];
-    const auto deviation = static_cast<float>(std::sqrt(2 / inputs));
-    for (std::size_t i = 0; i < count; ++i) {
-      tensor.values.push_back(deviation * random::gaussian(seed, i / 4, stream)[i % 4]);
-    }
-    ++stream;
-    weights.tensors.push_back(std::move(tensor));
-  }
-  return weights;
+  return {"seeded noise", "none", "", sizes, seeded_noise(field_manifest(sizes), seed), {}};
 }
 
 }  // namespace flowdlo::weights

@@ -4,10 +4,8 @@
 
 #include <algorithm>
 #include <cassert>
-#include <cmath>
-#include <cstddef>
 
-#include "random/philox.hpp"
+#include "weights/seeded_noise.hpp"
 
 namespace flowdlo::weights {
 namespace {
@@ -39,22 +37,7 @@ std::vector<Expected> refine_manifest() {
 }
 
 RefineWeights seeded_refine(std::uint64_t seed) {
-  RefineWeights weights;
-  std::uint64_t stream = 0;
-  for (Expected& expected : refine_manifest()) {
-    Tensor tensor{std::move(expected.name), std::move(expected.shape), {}};
-    std::size_t count = 1;
-    for (const int extent : tensor.shape) count *= static_cast<std::size_t>(extent);
-    const bool bias = tensor.shape.size() == 1;
-    const double inputs = bias ? 100 : tensor.shape[1] * tensor.shape[2];
-    const auto deviation = static_cast<float>(std::sqrt(2 / inputs));
-    for (std::size_t i = 0; i < count; ++i) {
-      tensor.values.push_back(deviation * random::gaussian(seed, i / 4, stream)[i % 4]);
-    }
-    ++stream;
-    weights.tensors.push_back(std::move(tensor));
-  }
-  return weights;
+  return {"", seeded_noise(refine_manifest(), seed)};
 }
 
 }  // namespace flowdlo::weights

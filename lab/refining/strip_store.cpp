@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <atomic>
-#include <cmath>
 #include <cstring>
 #include <fstream>
 #include <iterator>
@@ -24,6 +23,7 @@
 #include "geometry/camera.hpp"
 #include "reference/program.hpp"
 #include "refine/local_frame.hpp"
+#include "synth/evenly_spread.hpp"
 #include "synth/synthetic_frame.hpp"
 #include "threads/pool.hpp"
 #include "threads/team.hpp"
@@ -35,14 +35,6 @@ constexpr std::uint64_t kMagic = 0x3130'5350'4952'5453;  // "STRIPS01"
 constexpr std::size_t kStripFloats =
     static_cast<std::size_t>(refine::kStations) * weights::kRefineInputs;
 static_assert(std::is_trivially_copyable_v<StripTruth>);
-
-/// Whether a scene is one of a share of all that is evenly spread.
-bool among(double share, std::uint64_t scene) {
-  const auto so_far = [&](std::uint64_t scenes) {
-    return std::floor(share * static_cast<double>(scenes));
-  };
-  return so_far(scene + 1) > so_far(scene);
-}
 
 StripTruth truth_of(const Centerline& nodes, const Centerline& canonical) {
   const auto score = eval::score(nodes, canonical);
@@ -63,10 +55,10 @@ StripTruth truth_of(const Centerline& nodes, const Centerline& canonical) {
 /// Nothing where there is no path.
 Result<std::optional<StripSample>> sample_of(const DataConfig& config, std::uint64_t number,
                                              field::Network* field) {
-  const bool seen = field != nullptr && among(config.seen, number);
+  const bool seen = field != nullptr && synth::evenly_spread(config.seen, number);
   const auto scene =
       synth::make_frame(synth::Split::kWide, synth::Part::kTraining, 0, config.first + number,
-                        {.color = seen, .matched = among(config.matched, number)});
+                        {.color = seen, .matched = synth::evenly_spread(config.matched, number)});
   if (!scene) return scene.error();
   const Frame frame = scene->frame();
   constexpr auto kKind = weights::PriorKind::kRefined;

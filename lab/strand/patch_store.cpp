@@ -4,7 +4,6 @@
 
 #include <array>
 #include <atomic>
-#include <cmath>
 #include <cstring>
 #include <fstream>
 #include <mutex>
@@ -12,6 +11,7 @@
 #include <type_traits>
 
 #include "files/whole_file.hpp"
+#include "synth/evenly_spread.hpp"
 #include "threads/team.hpp"
 
 namespace flowdlo::strand {
@@ -122,22 +122,15 @@ std::filesystem::path shard_file(const std::filesystem::path& folder, std::uint6
   return folder / fmt::format("patches_{:05}.bin", shard);
 }
 
-/// Whether a scene is one of a share of all that is evenly spread.
-bool among(double share, std::uint64_t scene) {
-  const auto so_far = [&](std::uint64_t scenes) {
-    return std::floor(share * static_cast<double>(scenes));
-  };
-  return so_far(scene + 1) > so_far(scene);
-}
-
 Result<void> make_shard(const std::filesystem::path& file, std::uint64_t shard,
                         const DataConfig& config, const std::function<void()>& progress) {
   std::vector<std::vector<std::uint8_t>> packed;
   for (std::uint64_t i = 0; i < kShardScenes; ++i) {
     const std::uint64_t scene = shard * kShardScenes + i;
-    const auto split = among(config.several, scene) ? synth::Split::kSeveral : synth::Split::kWide;
+    const auto split =
+        synth::evenly_spread(config.several, scene) ? synth::Split::kSeveral : synth::Split::kWide;
     const auto patches = patches_of(split, synth::Part::kTraining, config.seed, scene, config.patch,
-                                    among(config.matched, scene));
+                                    synth::evenly_spread(config.matched, scene));
     if (!patches) return patches.error();
     for (const Patch& patch : *patches) {
       Writer writer;

@@ -26,11 +26,6 @@ std::string today() {
   return fmt::format("{:04}-{:02}-{:02}", parts.tm_year + 1900, parts.tm_mon + 1, parts.tm_mday);
 }
 
-int failed(const Error& error) {
-  fmt::print(stderr, "{}\n", error.message);
-  return 1;
-}
-
 int run_export(const Arguments& arguments) {
   const auto state = load_checkpoint(arguments.folder / "checkpoint.pt", torch::kCPU);
   if (!state) return failed(state.error());

@@ -55,11 +55,6 @@ struct FieldArguments {
   std::string command;
 };
 
-int failed(const Error& error, int code = 1) {
-  fmt::print(stderr, "{}\n", error.message);
-  return code;
-}
-
 int make_patches(const PatchArguments& arguments) {
   const auto recipe = strand::read_recipe(arguments.recipe);
   if (!recipe) return failed(recipe.error(), 2);

@@ -29,11 +29,6 @@ struct Arguments {
   std::string command;
 };
 
-int failed(const Error& error, int code = 1) {
-  fmt::print(stderr, "{}\n", error.message);
-  return code;
-}
-
 int refine(const Arguments& arguments) {
   const auto recipe = refining::read_recipe(arguments.recipe);
   if (!recipe) return failed(recipe.error(), 2);

@@ -71,11 +71,6 @@ class Progress {
   double rate_ = 0;
 };
 
-int failed(const Error& error, int code = 1) {
-  fmt::print(stderr, "{}\n", error.message);
-  return code;
-}
-
 void say_blas() {
   const Blas blas = find_blas();
   fmt::print("BLAS: {}\n", blas.name);

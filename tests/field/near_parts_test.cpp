@@ -27,7 +27,8 @@ Channels rope(int from) {
   for (int v = 0; v < kHeight_px; ++v) {
     for (int u = 0; u < kWidth_px; ++u) {
       const float octaves = u < from ? 0.0F : kOctaves;
-      if (std::abs(static_cast<float>(v - kMiddle)) > 0.5F * kRope_px * std::exp2(octaves)) continue;
+      if (std::abs(static_cast<float>(v - kMiddle)) > 0.5F * kRope_px * std::exp2(octaves))
+        continue;
       field.at(v, u)[kRope] = 1;
       field.at(v, u)[kWidth] = octaves;
     }
