@@ -20,7 +20,8 @@ struct Stage {
   double Timings::*time_ms;
 };
 
-constexpr std::array<Stage, 8> kStages = {{{"path", &Timings::path_ms},
+constexpr std::array<Stage, 9> kStages = {{{"field", &Timings::field_ms},
+                                           {"path", &Timings::path_ms},
                                            {"evidence", &Timings::evidence_ms},
                                            {"prior", &Timings::prior_ms},
                                            {"readings", &Timings::readings_ms},

@@ -105,6 +105,7 @@ Json one_rope_json(const OneRope& one) {
 
 Json timings_json(const Timings& timings) {
   return {{"evidence", number(timings.evidence_ms)},
+          {"field", number(timings.field_ms)},
           {"path", number(timings.path_ms)},
           {"prior", number(timings.prior_ms)},
           {"readings", number(timings.readings_ms)},

@@ -98,7 +98,7 @@ Result<Problem> make_problem(const std::filesystem::path& weights,
   const auto& variant = loaded->metadata.variant;
   Timings timings;
   const auto conditions =
-      estimator::gather(frame, /*rope_length_m=*/0, variant.prior_kind, timings);
+      estimator::gather(frame, {.prior_kind = variant.prior_kind}, timings);
   if (!conditions) return conditions.error();
   const auto field = evidence::mask_field(frame);
 

@@ -40,6 +40,7 @@ flowdlo_estimate plain(const Estimate& estimate) {
   out.goes_on = one.goes_on;
   const Timings& timings = estimate.timings;
   out.evidence_ms = timings.evidence_ms;
+  out.field_ms = timings.field_ms;
   out.path_ms = timings.path_ms;
   out.prior_ms = timings.prior_ms;
   out.readings_ms = timings.readings_ms;

@@ -1,8 +1,10 @@
 #include "estimator/conditions.hpp"
 
+#include <new>
 #include <utility>
 
 #include "estimator/stopwatch.hpp"
+#include "path/strand_reading.hpp"
 
 namespace flowdlo::estimator {
 namespace {
@@ -13,31 +15,75 @@ Error no_evidence() {
           "the mask, and that depth is in metres and aligned to it"};
 }
 
+/// Paths and hypotheses of `conditions`, where the paths have any.
+Result<void> lift(path::Traversals paths, const Frame& frame, const ReadConfig& config,
+                  Conditions& conditions) {
+  auto hypotheses = lift_all(paths, conditions.cloud, conditions.visible, frame, config.prior_kind);
+  if (!hypotheses) return hypotheses.error();
+  conditions.paths = std::move(paths);
+  conditions.hypotheses = *std::move(hypotheses);
+  return {};
+}
+
+/// Reads the frame along the axes that `see` shows. Whether there are any, and hypotheses of them;
+/// fails as path::glance does.
+Result<bool> read_seen(const Frame& frame, const ReadConfig& config, const SeeAxes& see,
+                       Timings& timings, Conditions& conditions) {
+  Stopwatch stage;
+  const auto glance = path::glance(frame);
+  if (!glance) return glance.error();
+  // Of noise a field shows noise, and the longer the more there is of it.
+  auto axes = glance->filtered ? std::nullopt : see(glance->rope_width_px);
+  stage.lap(timings.field_ms);
+  if (!axes) return false;
+  auto paths = path::trace_strands(frame, *axes, config.trace());
+  stage.lap(timings.path_ms);
+  const auto lifted =
+      paths ? lift(*std::move(paths), frame, config, conditions) : Result<void>(paths.error());
+  stage.lap(timings.prior_ms);
+  if (!lifted) {
+    // A reading that is left out for want of memory would make the frame's estimate another one.
+    if (lifted.error().code == ErrorCode::kOutOfMemory) throw std::bad_alloc();
+    return false;
+  }
+  axes->view = {};  // of a large mask many megabytes, and the lines are enough from here on
+  conditions.axes = std::move(axes);
+  return true;
+}
+
 }  // namespace
 
-Result<Conditions> gather(const Frame& frame, double rope_length_m, weights::PriorKind kind,
-                          Timings& timings, const std::vector<Eigen::Vector2f>& ends,
-                          const path::Traversals* traced) {
+Result<Conditions> gather(const Frame& frame, const ReadConfig& config, Timings& timings,
+                          const path::Traversals* traced, const SeeAxes& see) {
   Stopwatch stage;
   Conditions conditions;
   conditions.cloud = evidence::unproject(frame);  // Sec. 3.2
   if (conditions.cloud.points_cam.empty()) return no_evidence();
   conditions.visible = evidence::visible_points(conditions.cloud);
   stage.lap(timings.evidence_ms);
+  if (traced == nullptr && see) {
+    const auto seen = read_seen(frame, config, see, timings, conditions);
+    if (!seen) return seen.error();
+    if (*seen) return conditions;
+  }
+  Stopwatch rest;
+  const auto read = traced != nullptr ? lift(*traced, frame, config, conditions)
+                                      : read_mask(frame, config, timings, conditions);
+  if (traced != nullptr) rest.lap(timings.prior_ms);
+  if (!read) return read.error();
+  return conditions;
+}
 
-  auto paths =
-      traced != nullptr
-          ? Result<path::Traversals>(*traced)
-          : path::trace(frame, {.rope_length_m = rope_length_m, .ends = ends});  // Sec. 3.3
+Result<void> read_mask(const Frame& frame, const ReadConfig& config, Timings& timings,
+                       Conditions& conditions) {
+  Stopwatch stage;
+  auto paths = path::trace(frame, config.trace());  // Sec. 3.3
   stage.lap(timings.path_ms);
   if (!paths) return paths.error();
-  conditions.paths = *std::move(paths);
-
-  auto hypotheses = lift_all(conditions.paths, conditions.cloud, conditions.visible, frame, kind);
+  const auto lifted = lift(*std::move(paths), frame, config, conditions);
   stage.lap(timings.prior_ms);
-  if (!hypotheses) return hypotheses.error();
-  conditions.hypotheses = *std::move(hypotheses);
-  return conditions;
+  if (lifted) conditions.axes.reset();
+  return lifted;
 }
 
 }  // namespace flowdlo::estimator

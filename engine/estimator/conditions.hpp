@@ -2,9 +2,11 @@
 // trainer both take it from here, so that a model sees in use what it saw in training.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "estimator/hypotheses.hpp"
+#include "estimator/see_axes.hpp"
 #include "evidence/visible_points.hpp"
 #include "flowdlo/estimate.hpp"
 #include "flowdlo/frame.hpp"
@@ -14,19 +16,39 @@
 
 namespace flowdlo::estimator {
 
+/// How a frame is read.
+struct ReadConfig {
+  weights::PriorKind prior_kind = weights::PriorKind::kRefined;
+  double rope_length_m = 0;             ///< 0: unknown
+  std::vector<Eigen::Vector2f> ends{};  ///< as path::TraceConfig's
+
+  [[nodiscard]] path::TraceConfig trace() const {
+    return {.rope_length_m = rope_length_m, .ends = ends};
+  }
+};
+
+/// A frame and its first reading.
 struct Conditions {
   evidence::Cloud cloud;
   evidence::VisiblePoints visible;
   path::Traversals paths;
   std::vector<Hypothesis> hypotheses;  ///< best first; never empty
+  std::optional<field::Axes> axes{};   ///< of the strand field, which the paths run along; nothing:
+                                       ///< they are the mask's, or were known already
 };
 
-/// `rope_length_m` 0: unknown; `ends` as path::TraceConfig's. `traced`: the paths, where they are
-/// known already; else null. Fills evidence_ms, path_ms and prior_ms of `timings`. Expects a valid
-/// frame. Fails with kNoEvidence, or as path::trace and lift_all do.
-[[nodiscard]] Result<Conditions> gather(const Frame& frame, double rope_length_m,
-                                        weights::PriorKind kind, Timings& timings,
-                                        const std::vector<Eigen::Vector2f>& ends = {},
-                                        const path::Traversals* traced = nullptr);
+/// The first reading runs along `traced` where these paths are known already (else null), otherwise
+/// along the axes that `see` shows, otherwise along the mask alone: where `see` is null or shows
+/// nothing, of noise, and where no hypothesis can be made of the axes. Fills evidence_ms, field_ms,
+/// path_ms and prior_ms of `timings`. Expects a valid frame. Fails with kNoEvidence, or as
+/// path::glance, path::trace and lift_all do of the mask.
+[[nodiscard]] Result<Conditions> gather(const Frame& frame, const ReadConfig& config,
+                                        Timings& timings, const path::Traversals* traced = nullptr,
+                                        const SeeAxes& see = {});
+
+/// Reads the mask, whatever `conditions` were read along: its paths, its hypotheses. Fills path_ms
+/// and prior_ms of `timings`. Fails as path::trace and lift_all do, and leaves `conditions` then.
+[[nodiscard]] Result<void> read_mask(const Frame& frame, const ReadConfig& config, Timings& timings,
+                                     Conditions& conditions);
 
 }  // namespace flowdlo::estimator

@@ -8,16 +8,14 @@
 #include <vector>
 
 #include "estimator/budget.hpp"
-#include "estimator/candidates.hpp"
 #include "estimator/conditions.hpp"
 #include "estimator/config_check.hpp"
 #include "estimator/device_choice.hpp"
 #include "estimator/device_sampler.hpp"
 #include "estimator/hints.hpp"
+#include "estimator/judge.hpp"
 #include "estimator/known_scene.hpp"
 #include "estimator/opening.hpp"
-#include "estimator/refinement.hpp"
-#include "estimator/returned.hpp"
 #include "estimator/second_look.hpp"
 #include "estimator/several.hpp"
 #include "estimator/stopwatch.hpp"
@@ -26,7 +24,6 @@
 #include "field/strand_field.hpp"
 #include "flow/sampler.hpp"
 #include "gate/gate.hpp"
-#include "gate/one_rope.hpp"
 #include "guard/guarded.hpp"
 #include "prior/prior.hpp"
 #include "threads/aside.hpp"
@@ -37,41 +34,6 @@
 #include "weights/weights.hpp"
 
 namespace flowdlo {
-namespace {
-
-/// The caller's view of what the gate chose.
-Estimate conclude(const estimator::Returned& returned, const std::optional<Centerline>& refined,
-                  const std::vector<estimator::Hypothesis>& hypotheses,
-                  const flow::Prediction& prediction, gate::Verdict verdict,
-                  const gate::DilatedMask& mask, const Frame& frame) {
-  const prior::Prior& prior = hypotheses[returned.hypothesis].prior;
-  Estimate estimate;
-  estimate.source = returned.draw >= 0 ? Source::kPrediction : Source::kPrior;
-  estimate.origin = returned.origin;
-  estimate.draw = returned.draw;
-  estimate.nodes =
-      returned.draw >= 0 ? prediction.draws[static_cast<std::size_t>(returned.draw)] : prior.nodes;
-  if (refined) estimate.nodes = *refined;
-  estimate.support = prior.support;
-  estimate.closed = hypotheses[returned.hypothesis].evidence.closed;
-  estimate.sigma_m = returned.sigma_m;
-  estimate.mask_agreement = mask.agreement(estimate.nodes, frame.intrinsics);
-  estimate.prior_mask_agreement = verdict.prior_agreement;
-  estimate.confidence = returned.confidence;
-  estimate.switched = returned.switched;
-  estimate.draws = std::move(verdict.draws);
-  for (std::size_t i = 0; i < hypotheses.size(); ++i) {
-    if (i == returned.hypothesis) continue;
-    const auto& other = hypotheses[i];
-    estimate.alternatives.push_back({other.prior.nodes, static_cast<float>(other.score),
-                                     mask.agreement(other.prior.nodes, frame.intrinsics)});
-  }
-  std::stable_sort(estimate.alternatives.begin(), estimate.alternatives.end(),
-                   [](const Alternative& a, const Alternative& b) { return a.score > b.score; });
-  return estimate;
-}
-
-}  // namespace
 
 /// A member class is as visible as its owner unless it says otherwise.
 struct FLOWDLO_HIDDEN Estimator::Impl {
@@ -93,14 +55,18 @@ struct FLOWDLO_HIDDEN Estimator::Impl {
   Result<Estimate> estimate(const Frame& frame, const Hints& hints, Tensors* tensors,
                             const estimator::Budget& budget,
                             const path::Traversals* traced = nullptr);
-  [[nodiscard]] weights::PriorKind prior_kind() const;
-  [[nodiscard]] bool calibrated() const;
+  [[nodiscard]] bool calibrated() const { return estimator::is_calibrated(config, metadata); }
+  [[nodiscard]] std::optional<field::Axes> axes(const Frame& frame, float rope_width_px,
+                                                const estimator::Budget& budget, bool near_parts,
+                                                bool& left_out);
+  [[nodiscard]] std::vector<int> assign(const std::vector<estimator::Hypothesis>& hypotheses) const;
+  Result<estimator::Sampled> sample(const Frame& frame, const estimator::Conditions& conditions,
+                                    const gate::DilatedMask& mask, Timings& timings);
+  void learn_first(const estimator::Conditions& conditions, const Timings& timings,
+                   const Frame& frame);
   [[nodiscard]] estimator::ReadingLimits limits(const estimator::Budget& budget,
                                                 const Timings& timings);
   [[nodiscard]] double sampling_ms(const estimator::Rereading& rereading) const;
-  [[nodiscard]] std::optional<field::Axes> axes(const Frame& frame, float rope_width_px,
-                                                const estimator::Budget& budget);
-  [[nodiscard]] std::vector<int> assign(const std::vector<estimator::Hypothesis>& hypotheses) const;
 };
 
 Result<std::unique_ptr<Estimator::Impl>> Estimator::Impl::create(const Config& wanted,
@@ -143,33 +109,15 @@ void Estimator::Impl::learn_costs() {
   (void)estimate(scene.frame(), {}, &tensors, estimator::Budget(config.budget_ms));
 }
 
-weights::PriorKind Estimator::Impl::prior_kind() const {
-  switch (config.prior) {
-    case PriorChoice::kThesis:
-      return weights::PriorKind::kThesis;
-    case PriorChoice::kRefined:
-      return weights::PriorKind::kRefined;
-    case PriorChoice::kOfWeights:
-      break;
-  }
-  return metadata.variant.prior_kind;
+/// What a frame's reading took is what the next frame's is expected to take.
+void Estimator::Impl::learn_first(const estimator::Conditions& conditions, const Timings& timings,
+                                  const Frame& frame) {
+  estimator::Cost& cost = conditions.axes ? reading_costs.of_field : reading_costs.of_mask;
+  cost.saw(timings.field_ms + timings.path_ms + timings.prior_ms,
+           estimator::magnified_px(frame, conditions.paths.rope_width_px));
 }
 
-/// Whether the fitted score decides. It was fitted to the model that comes with FlowDLO.
-bool Estimator::Impl::calibrated() const {
-  switch (config.gate) {
-    case GateChoice::kThesis:
-      return false;
-    case GateChoice::kCalibrated:
-      return true;
-    case GateChoice::kOfWeights:
-      break;
-  }
-  return metadata.trained && metadata.variant.head_channels == 4 &&
-         metadata.variant.prior_kind == weights::PriorKind::kRefined;
-}
-
-/// Of a frame whose first reading took as long as `timings` say.
+/// Of a frame whose mask took as long as `timings` say.
 estimator::ReadingLimits Estimator::Impl::limits(const estimator::Budget& budget,
                                                  const Timings& timings) {
   if (!budget.bounded()) return {};
@@ -183,15 +131,20 @@ double Estimator::Impl::sampling_ms(const estimator::Rereading& rereading) const
   return model_cost.of(1) + gate_cost.of(1) + alone_ms;
 }
 
-/// What the strand field shows of several ropes; nothing without one, or where time is short.
+/// What the strand field shows; nothing without one, or where it and the mask, which may have to
+/// follow, would take too long: it is `left_out`.
 std::optional<field::Axes> Estimator::Impl::axes(const Frame& frame, float rope_width_px,
-                                                 const estimator::Budget& budget) {
+                                                 const estimator::Budget& budget, bool near_parts,
+                                                 bool& left_out) {
   if (!networks.field) return std::nullopt;
-  const double rope_px = estimator::magnified_px(frame, rope_width_px);
-  if (budget.bounded() && !budget.leaves(reading_costs.of_field.of(rope_px))) {
+  const double rope_px = budget.bounded() ? estimator::magnified_px(frame, rope_width_px) : 0;
+  const double to_come_ms = reading_costs.of_mask.of(rope_px) + gate_cost.of(1);
+  left_out = !budget.leaves(reading_costs.of_field.of(rope_px) + to_come_ms);
+  if (left_out) {
+    reading_costs.of_field.left_out();
     return std::nullopt;
   }
-  const auto seen = field::see(frame, rope_width_px, *networks.field, true);
+  const auto seen = field::see(frame, rope_width_px, *networks.field, near_parts);
   return seen ? std::optional(field::axes(*seen)) : std::nullopt;
 }
 
@@ -204,92 +157,112 @@ std::vector<int> Estimator::Impl::assign(
   return estimator::assign_draws(count, margin, config.draws);
 }
 
+/// The model's draws, each of the hypothesis that it is given, and what the thesis' gate says.
+Result<estimator::Sampled> Estimator::Impl::sample(const Frame& frame,
+                                                   const estimator::Conditions& conditions,
+                                                   const gate::DilatedMask& mask,
+                                                   Timings& timings) {
+  estimator::Stopwatch stage;
+  estimator::Sampled sampled{.assigned = assign(conditions.hypotheses)};
+  std::vector<prior::Prior> priors;
+  std::vector<Centerline> prior_nodes;
+  for (const int hypothesis : sampled.assigned) {
+    priors.push_back(conditions.hypotheses[static_cast<std::size_t>(hypothesis)].prior);
+    prior_nodes.push_back(priors.back().nodes);
+  }
+  sampled.mask_field = evidence::mask_field(frame);
+  stage.lap(timings.mask_field_ms);
+  auto prediction = sampler.sample({.frame = frame,  // Eq. (3.26)-(3.29)
+                                    .cloud = conditions.cloud,
+                                    .field = sampled.mask_field,
+                                    .draw_priors = priors,
+                                    .visible = &conditions.visible});
+  stage.lap(timings.model_ms);
+  if (!prediction) return prediction.error();
+  timings.device_ms = sampler.stage_times_ms();
+  model_cost.saw(timings.mask_field_ms + timings.model_ms, 1);
+  sampled.prediction = *std::move(prediction);
+  sampled.verdict = gate::choose(sampled.prediction.draws, prior_nodes,
+                                 conditions.hypotheses.front().prior.nodes, mask, frame.intrinsics);
+  stage.lap(timings.gate_ms);
+  return sampled;
+}
+
+/// The field first. Where that leaves doubt the mask, and what else can be read; the model; then
+/// the choice.
 Result<Estimate> Estimator::Impl::estimate(const Frame& frame, const Hints& hints, Tensors* tensors,
                                            const estimator::Budget& budget,
                                            const path::Traversals* traced) {
   if (auto valid = validate(frame); !valid) return valid.error();
   if (auto valid = estimator::check(hints, frame); !valid) return valid.error();
-  const double rope_length_m = hints.rope_length_m.value_or(config.rope_length_m);
-  const auto ends = estimator::end_directions(hints, frame.intrinsics);
+  const estimator::ReadConfig reading{estimator::prior_kind(config, metadata),
+                                      hints.rope_length_m.value_or(config.rope_length_m),
+                                      estimator::end_directions(hints, frame.intrinsics)};
   Timings timings;
   estimator::Stopwatch total;
-  const auto conditions = estimator::gather(frame, rope_length_m, prior_kind(), timings, ends,
-                                            traced);  // Sec. 3.2, 3.3
-  estimator::Stopwatch stage;
+  bool no_time_for_field = false;
+  estimator::SeeAxes see;
+  if (networks.field) {
+    see = [&](float px) { return axes(frame, px, budget, false, no_time_for_field); };
+  }
+  auto conditions = estimator::gather(frame, reading, timings, traced, see);  // Sec. 3.2, 3.3
   if (!conditions) return conditions.error();
-  // The thesis' gate knows no doubt.
-  const bool reread =
-      calibrated() && estimator::worth_rereading(*conditions, frame, traced != nullptr);
-  estimator::Rereading rereading(pool, reread, networks.field ? &*networks.field : nullptr,
-                                 *conditions, frame, rope_length_m, prior_kind(), ends,
-                                 limits(budget, timings));
 
-  const auto& hypotheses = conditions->hypotheses;
-  const bool sampled = tensors != nullptr || budget.leaves(sampling_ms(rereading));
-  const auto assigned = sampled ? assign(hypotheses) : std::vector<int>{};
-  std::vector<prior::Prior> draw_priors;
-  std::vector<Centerline> draw_prior_nodes;
-  for (const int hypothesis : assigned) {
-    draw_priors.push_back(hypotheses[static_cast<std::size_t>(hypothesis)].prior);
-    draw_prior_nodes.push_back(draw_priors.back().nodes);
+  estimator::Stopwatch stage;
+  const gate::DilatedMask mask(frame);
+  const estimator::Judge judge(calibrated(), hints, *conditions, frame, reading.rope_length_m,
+                               networks.refine ? &*networks.refine : nullptr);
+  auto first = judge.of_first(traced != nullptr);
+  if (!first) return first.error();
+  stage.lap(timings.gate_ms);
+
+  const bool doubtful = calibrated() && !*first;  // the thesis' gate knows no doubt
+  if (budget.bounded()) learn_first(*conditions, timings, frame);
+  if (doubtful && conditions->axes) {
+    Timings of_mask;
+    const auto read = estimator::read_mask(frame, reading, of_mask, *conditions);
+    if (!read) return read.error();
+    if (budget.bounded()) learn_first(*conditions, of_mask, frame);
+    timings.path_ms += of_mask.path_ms;
+    timings.prior_ms += of_mask.prior_ms;
   }
-  stage.lap(timings.prior_ms);
-
-  evidence::MaskField mask_field;
-  if (sampled) mask_field = evidence::mask_field(frame);
-  stage.lap(timings.mask_field_ms);
-
-  Result<flow::Prediction> prediction = flow::Prediction{};
-  if (sampled) {
-    prediction = sampler.sample({.frame = frame,  // Eq. (3.26)-(3.29)
-                                 .cloud = conditions->cloud,
-                                 .field = mask_field,
-                                 .draw_priors = draw_priors,
-                                 .visible = &conditions->visible});
-    if (!prediction) return prediction.error();
-    timings.device_ms = sampler.stage_times_ms();
-  }
-  stage.lap(timings.model_ms);
-  if (sampled) {
-    model_cost.saw(timings.mask_field_ms + timings.model_ms, 1);
-  } else {
+  stage = {};
+  estimator::Rereading rereading(pool, doubtful && estimator::worth_rereading(*conditions, frame),
+                                 networks.field ? &*networks.field : nullptr, *conditions, frame,
+                                 reading, limits(budget, timings));
+  const bool wanted = tensors != nullptr || !*first || config.quality == Quality::kFull;
+  const bool asked = wanted && (tensors != nullptr || budget.leaves(sampling_ms(rereading)));
+  estimator::Sampled sampled;
+  if (asked) {
+    auto drawn = sample(frame, *conditions, mask, timings);
+    if (!drawn) return drawn.error();
+    sampled = *std::move(drawn);
+    stage = {};
+  } else if (wanted) {
     model_cost.left_out();
   }
-  estimator::SecondLook look = rereading.finish();
+  estimator::SecondLook look = *first ? (*first)->look : rereading.finish();
   stage.lap(rereading.duration_ms() > 0 ? timings.readings_ms : timings.gate_ms);
   timings.beside_ms = std::max(0.0, rereading.duration_ms() - timings.readings_ms);
 
-  const gate::DilatedMask mask(frame);
-  auto verdict = gate::choose(prediction->draws, draw_prior_nodes, hypotheses.front().prior.nodes,
-                              mask, frame.intrinsics);  // Eq. (3.30)-(3.33)
-  const auto candidates =
-      calibrated() ? estimator::list_candidates(look, conditions->paths.rope_width_px, *prediction,
-                                                verdict.draws, assigned, frame, rope_length_m)
-                   : std::vector<gate::Candidate>();
-  const auto returned =
-      calibrated() ? estimator::by_score(candidates, hints, *conditions, frame, rope_length_m, look)
-                   : estimator::by_thesis(hypotheses, *prediction, verdict, assigned);
-  const auto refined = estimator::refined(returned, candidates, frame, networks.refine);
-  if (!refined) return refined.error();
+  std::vector<LeftOut> left_out;
+  if (wanted && !asked) left_out.push_back(LeftOut::kModel);
+  if (no_time_for_field || look.field_left_out) left_out.push_back(LeftOut::kField);
+  if (look.eroded_left_out) left_out.push_back(LeftOut::kReadings);
+  auto judged = *first && !asked ? Result<estimator::Judged>(**std::move(first))
+                                 : judge.of_all(std::move(look), sampled);
+  if (!judged) return judged.error();
   Estimate estimate =
-      conclude(returned, *refined, look.hypotheses, *prediction, std::move(verdict), mask, frame);
-  estimate.one_rope = gate::one_rope(estimate.nodes, frame, conditions->paths.rope_width_px);
-  estimate.confidence = gate::doubted(estimate.confidence, estimate.one_rope);
-  estimate.readings = look.readings;
+      estimator::conclude(*std::move(judged), std::move(sampled.verdict.draws), mask, frame);
   estimate.calibrated = calibrated();
-  if (!sampled) estimate.left_out.push_back(LeftOut::kModel);
-  if (look.field_left_out) estimate.left_out.push_back(LeftOut::kField);
-  if (look.eroded_left_out) estimate.left_out.push_back(LeftOut::kReadings);
+  estimate.left_out = std::move(left_out);
   estimator::turn(estimate, hints, frame.intrinsics);
   stage.lap(timings.gate_ms);
   gate_cost.saw(timings.gate_ms, 1);
   total.lap(timings.total_ms);
   estimate.timings = std::move(timings);
-
   if (tensors != nullptr) {
-    *tensors = estimator::collect_tensors(
-        sampler.source(), conditions->paths.ranked[hypotheses.front().path],
-        hypotheses.front().prior, draw_priors, *prediction, mask_field);
+    *tensors = estimator::collect_tensors(sampler.source(), *conditions, sampled);
     if (networks.field) {
       const auto seen = field::see(frame, conditions->paths.rope_width_px, *networks.field);
       if (seen) tensors->strands = estimator::seen_strands(*seen);
@@ -343,7 +316,10 @@ Result<Ropes> Estimator::estimate_ropes(const Frame& frame) {
         [&](const Frame& view, const path::Traversals* traced, double share) {
           return impl_->estimate(view, {}, nullptr, budget.part(share), traced);
         },
-        [&](float rope_width_px) { return impl_->axes(frame, rope_width_px, budget); });
+        [&](float rope_width_px) {
+          bool left_out = false;
+          return impl_->axes(frame, rope_width_px, budget, true, left_out);
+        });
   });
 }
 

@@ -72,4 +72,29 @@ void return_free_memory() {
 #endif
 }
 
+weights::PriorKind prior_kind(const Config& config, const weights::Metadata& metadata) {
+  switch (config.prior) {
+    case PriorChoice::kThesis:
+      return weights::PriorKind::kThesis;
+    case PriorChoice::kRefined:
+      return weights::PriorKind::kRefined;
+    case PriorChoice::kOfWeights:
+      break;
+  }
+  return metadata.variant.prior_kind;
+}
+
+bool is_calibrated(const Config& config, const weights::Metadata& metadata) {
+  switch (config.gate) {
+    case GateChoice::kThesis:
+      return false;
+    case GateChoice::kCalibrated:
+      return true;
+    case GateChoice::kOfWeights:
+      break;
+  }
+  return metadata.trained && metadata.variant.head_channels == 4 &&
+         metadata.variant.prior_kind == weights::PriorKind::kRefined;
+}
+
 }  // namespace flowdlo::estimator

@@ -16,6 +16,13 @@ namespace flowdlo::estimator {
 /// With K and D as the quality has them.
 [[nodiscard]] Config resolved(const Config& config, const weights::Metadata& metadata);
 
+/// How paths become priors: as the configuration says, or the weights.
+[[nodiscard]] weights::PriorKind prior_kind(const Config& config,
+                                            const weights::Metadata& metadata);
+
+/// Whether the fitted score decides. It was fitted to the model that comes with FlowDLO.
+[[nodiscard]] bool is_calibrated(const Config& config, const weights::Metadata& metadata);
+
 [[nodiscard]] flow::SamplerConfig sampler_config(const Config& config);
 
 /// The weights as long as `loaded` lives, then made anew from their file: for a frame larger than

@@ -11,10 +11,9 @@ refine::Curve curve_of(const gate::Candidate& candidate) {
 
 Result<std::optional<Centerline>> refined(const Returned& returned,
                                           const std::vector<gate::Candidate>& candidates,
-                                          const Frame& frame,
-                                          std::optional<refine::Network>& network) {
+                                          const Frame& frame, refine::Network* network) {
   const bool prior = returned.draw < 0 && returned.origin != Origin::kFrameBefore;
-  if (!network || !prior || returned.hypothesis >= candidates.size()) {
+  if (network == nullptr || !prior || returned.hypothesis >= candidates.size()) {
     return std::optional<Centerline>();
   }
   auto nodes = refine::refined(curve_of(candidates[returned.hypothesis]), frame, *network);

@@ -20,6 +20,6 @@ namespace flowdlo::estimator {
 /// of this frame: the network has seen no other. `candidates` as list_candidates() has them.
 [[nodiscard]] Result<std::optional<Centerline>> refined(
     const Returned& returned, const std::vector<gate::Candidate>& candidates, const Frame& frame,
-    std::optional<refine::Network>& network);
+    refine::Network* network);
 
 }  // namespace flowdlo::estimator

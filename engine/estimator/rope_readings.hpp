@@ -2,20 +2,14 @@
 // mask alone where it is not; and which of them both readings have.
 #pragma once
 
-#include <functional>
-#include <optional>
 #include <vector>
 
-#include "field/axes.hpp"
+#include "estimator/see_axes.hpp"
 #include "flowdlo/frame.hpp"
 #include "flowdlo/result.hpp"
 #include "path/path.hpp"
 
 namespace flowdlo::estimator {
-
-/// What a strand field shows of a frame whose ropes are so many pixels wide as its mask has it;
-/// nothing where the field is not to be asked, for want of time as well, or fails.
-using SeeAxes = std::function<std::optional<field::Axes>(float rope_width_px)>;
 
 /// What a second reading says of a rope.
 enum class Witness {

@@ -8,7 +8,6 @@
 #include <numeric>
 #include <utility>
 
-#include "estimator/confidence.hpp"
 #include "field/axes.hpp"
 #include "field/strand_field.hpp"
 #include "gate/one_rope.hpp"
@@ -28,9 +27,10 @@ constexpr double kSamePlace = 2;      // rope radii between the mean nodes of on
 constexpr double kOddsScore = 1;      // score that makes a hypothesis e times as likely
 
 // Expected before any reading was timed, in doubt too much: what the eroded mask takes for each
-// millisecond of the first reading, and the field for each pixel, which is twice the 4 us of one
-// core of a Sapphire Rapids.
+// millisecond of the mask's reading, mask and field for each pixel. The field's is twice the 4 us
+// of one core of a Sapphire Rapids.
 constexpr double kFirstReading = 2;
+constexpr double kMaskPixel_ms = 0.004;
 constexpr double kFieldPixel_ms = 0.008;
 
 using Reading = std::vector<Hypothesis>;  // what one reading brought forth, best first
@@ -125,6 +125,21 @@ void count_seen_odds(const Reading& reading, double radius_m, std::vector<Hypoth
   }
 }
 
+/// What readings hold together. Where the field was `seen`, its reading is the second one, or the
+/// only one.
+SecondLook joined(const std::vector<Reading>& readings, bool seen, const Conditions& conditions,
+                  const Frame& frame) {
+  const auto radius_m = static_cast<double>(gate::tube_radius_m(
+      readings.front().front().prior.nodes, frame.intrinsics, conditions.paths.rope_width_px));
+  SecondLook look;
+  look.readings = static_cast<int>(readings.size());
+  look.hypotheses = pooled(readings, radius_m);
+  look.axes = conditions.axes;
+  count_votes(readings, radius_m, look.hypotheses);
+  if (seen) count_seen_odds(readings[readings.size() > 1 ? 1 : 0], radius_m, look.hypotheses);
+  return look;
+}
+
 /// Of a hypothesis that is right this holds, whatever the mask merges.
 bool shaped_like_a_rope(const Hypothesis& hypothesis, const Frame& frame, float width_px) {
   const auto doubts = gate::one_rope(hypothesis.prior.nodes, frame, width_px).doubts;
@@ -133,14 +148,12 @@ bool shaped_like_a_rope(const Hypothesis& hypothesis, const Frame& frame, float 
 
 }  // namespace
 
-bool worth_rereading(const Conditions& conditions, const Frame& frame, bool seen) {
-  const auto& first = conditions.hypotheses;
+bool worth_rereading(const Conditions& conditions, const Frame& frame) {
   const path::Traversals& paths = conditions.paths;
-  if (seen && confidence(first.front().evidence, lead(first)) >= kClear) return false;
   if (paths.filtered || paths.strands > path::kMostRereadStrands) return false;
   const auto sides = static_cast<std::size_t>(frame.width + frame.height);
   if (paths.ranked.front().points_px.size() > path::kMostRereadSides * sides) return false;
-  return shaped_like_a_rope(first.front(), frame, paths.rope_width_px);
+  return shaped_like_a_rope(conditions.hypotheses.front(), frame, paths.rope_width_px);
 }
 
 double magnified_px(const Frame& frame, float rope_width_px) {
@@ -150,19 +163,21 @@ double magnified_px(const Frame& frame, float rope_width_px) {
   return static_cast<double>(masked) * static_cast<double>(scale * scale);
 }
 
-ReadingCosts::ReadingCosts() : of_eroded(kFirstReading), of_field(kFieldPixel_ms) {}
+ReadingCosts::ReadingCosts()
+    : of_mask(kMaskPixel_ms), of_field(kFieldPixel_ms), of_eroded(kFirstReading) {}
+
+SecondLook first_look(const Conditions& conditions, const Frame& frame) {
+  return joined({conditions.hypotheses}, conditions.axes.has_value(), conditions, frame);
+}
 
 Rereading::Rereading(threads::Pool& pool, bool worth, field::Network* field,
-                     const Conditions& conditions, const Frame& frame, double rope_length_m,
-                     weights::PriorKind prior_kind, std::vector<Eigen::Vector2f> ends,
+                     const Conditions& conditions, const Frame& frame, const ReadConfig& config,
                      const ReadingLimits& limits)
     : field_(field),
       limits_(limits),
       conditions_(conditions),
       frame_(frame),
-      rope_length_m_(rope_length_m),
-      prior_kind_(prior_kind),
-      ends_(std::move(ends)),
+      config_(config),
       rope_px_(worth && field != nullptr && limits.budget != nullptr
                    ? magnified_px(frame, conditions.paths.rope_width_px)
                    : 0),
@@ -200,14 +215,14 @@ void Rereading::read(Read& result) {
   }
   result.begin = Clock::now();
   const float width_px = conditions_.paths.rope_width_px;
-  const path::TraceConfig config{.rope_length_m = rope_length_m_, .ends = ends_};
+  const path::TraceConfig config = config_.trace();
   const bool of_field = result.kind == Kind::kField;
   const auto trace = [&] {
     return of_field ? trace_seen(*field_, frame_, width_px, config, axes_)
                     : path::trace_eroded(frame_, width_px, config);
   };
   result.hypotheses =
-      read_by(trace, of_field ? kOfField : kOfEroded, conditions_, frame_, prior_kind_);
+      read_by(trace, of_field ? kOfField : kOfEroded, conditions_, frame_, config_.prior_kind);
   result.end = Clock::now();
 }
 
@@ -226,22 +241,20 @@ SecondLook Rereading::finish() {
   beside_.finish();
   learn_costs();
   std::vector<Reading> readings{conditions_.hypotheses};
-  SecondLook look;
   bool seen = false;
+  bool field_left_out = false;
+  bool eroded_left_out = false;
   for (Read& read : reads_) {
     const bool of_field = read.kind == Kind::kField;
-    (of_field ? look.field_left_out : look.eroded_left_out) = read.left_out;
+    (of_field ? field_left_out : eroded_left_out) = read.left_out;
     if (read.hypotheses.empty()) continue;
     seen = seen || of_field;
     readings.push_back(std::move(read.hypotheses));
   }
-  const auto radius_m = static_cast<double>(gate::tube_radius_m(
-      readings.front().front().prior.nodes, frame_.intrinsics, conditions_.paths.rope_width_px));
-  look.readings = static_cast<int>(readings.size());
-  look.hypotheses = pooled(readings, radius_m);
-  look.axes = std::move(axes_);
-  count_votes(readings, radius_m, look.hypotheses);
-  if (seen) count_seen_odds(readings[1], radius_m, look.hypotheses);
+  SecondLook look = joined(readings, seen, conditions_, frame_);
+  look.field_left_out = field_left_out;
+  look.eroded_left_out = eroded_left_out;
+  if (axes_) look.axes = std::move(axes_);
   return look;
 }
 

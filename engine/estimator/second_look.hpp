@@ -16,17 +16,10 @@
 
 namespace flowdlo::estimator {
 
-/// How sure a reading along a strand field's axes has to be of its best hypothesis to be left
-/// alone, `confidence`.
-inline constexpr float kClear = 0.7F;
-
-/// Whether further readings of the frame that `conditions` are of may be surer than the first one.
-/// That of a mask has no doubt where strands are merged, so that it is never left alone; one that
-/// has `seen` a strand field is, where it is clear. Not where another would be no better: of noise,
-/// of what has no rope's shape, of a tangle beyond path::kMostRereadStrands or
-/// path::kMostRereadSides.
-[[nodiscard]] bool worth_rereading(const Conditions& conditions, const Frame& frame,
-                                   bool seen = false);
+/// Whether further readings of the mask that `conditions` are of may be surer than the first one.
+/// Not where another would be no better: of noise, of what has no rope's shape, of a tangle beyond
+/// path::kMostRereadStrands or path::kMostRereadSides.
+[[nodiscard]] bool worth_rereading(const Conditions& conditions, const Frame& frame);
 
 /// Pixels of the mask, magnified as the network of a strand field sees a rope of that width.
 [[nodiscard]] double magnified_px(const Frame& frame, float rope_width_px);
@@ -35,8 +28,9 @@ inline constexpr float kClear = 0.7F;
 struct ReadingCosts {
   ReadingCosts();
 
-  Cost of_eroded;  ///< for each millisecond that the first reading took
-  Cost of_field;   ///< for each pixel of the rope, magnified as the network sees it
+  Cost of_mask;    ///< for each pixel of the rope, magnified as the network sees it
+  Cost of_field;   ///< likewise
+  Cost of_eroded;  ///< for each millisecond that the mask took
 };
 
 /// Until when further readings may begin.
@@ -47,6 +41,7 @@ struct ReadingLimits {
   double after_ms = 0;             ///< what has to follow all readings
 };
 
+/// All readings of a frame.
 struct SecondLook {
   int readings = 1;                      ///< of the mask, the first among them
   std::vector<Hypothesis> hypotheses{};  ///< those of the first reading as they were, best first,
@@ -56,15 +51,17 @@ struct SecondLook {
   bool eroded_left_out = false;          ///< the eroded mask, for want of time
 };
 
+/// The first reading alone.
+[[nodiscard]] SecondLook first_look(const Conditions& conditions, const Frame& frame);
+
 /// Further readings under way on the threads of a pool. What it is made of has to outlive it.
 class Rereading {
  public:
   /// None where nothing is `worth` it; otherwise the one along the axes that the network of a
   /// strand field sees, where there is one, and that of the eroded mask, which of all masks tried
-  /// finds most beside it (docs/accuracy.md). `ends` as path::TraceConfig's.
+  /// finds most beside it (docs/accuracy.md).
   Rereading(threads::Pool& pool, bool worth, field::Network* field, const Conditions& conditions,
-            const Frame& frame, double rope_length_m, weights::PriorKind prior_kind,
-            std::vector<Eigen::Vector2f> ends = {}, const ReadingLimits& limits = {});
+            const Frame& frame, const ReadConfig& config, const ReadingLimits& limits = {});
 
   /// What all readings will take on one thread; 0 without limits.
   [[nodiscard]] double expected_ms() const;
@@ -105,9 +102,7 @@ class Rereading {
   const ReadingLimits limits_;
   const Conditions& conditions_;
   const Frame frame_;
-  const double rope_length_m_;
-  const weights::PriorKind prior_kind_;
-  const std::vector<Eigen::Vector2f> ends_;
+  const ReadConfig config_;
   double rope_px_ = 0;       // of the rope, magnified as the network sees it; 0 without limits
   std::vector<Read> reads_;  // the field's first, for it takes longest
   std::optional<field::Axes> axes_;

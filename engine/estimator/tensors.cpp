@@ -23,9 +23,11 @@ std::vector<float> planes(const evidence::MaskField& field) {
 
 }  // namespace
 
-Tensors collect_tensors(std::span<const float> source, const path::Path& path,
-                        const prior::Prior& best, std::span<const prior::Prior> draw_priors,
-                        const flow::Prediction& prediction, const evidence::MaskField& field) {
+Tensors collect_tensors(std::span<const float> source, const Conditions& conditions,
+                        const Sampled& sampled) {
+  const flow::Prediction& prediction = sampled.prediction;
+  const evidence::MaskField& field = sampled.mask_field;
+  const Hypothesis& best = conditions.hypotheses.front();
   Tensors tensors;
   tensors.draws = static_cast<int>(prediction.draws.size());
   tensors.field_width = field.width;
@@ -37,12 +39,13 @@ Tensors collect_tensors(std::span<const float> source, const path::Path& path,
     tensors.visible.insert(tensors.visible.end(), {point.x, point.y, point.z});
   }
   tensors.visible_valid.assign(prediction.visible.valid.begin(), prediction.visible.valid.end());
-  for (const Eigen::Vector2f& sample : path.points_px) {
+  for (const Eigen::Vector2f& sample : conditions.paths.ranked[best.path].points_px) {
     tensors.path.insert(tensors.path.end(), {sample.x(), sample.y()});
   }
-  append(tensors.prior, best.nodes);
-  tensors.support.assign(best.support.begin(), best.support.end());
-  for (const prior::Prior& prior : draw_priors) {
+  append(tensors.prior, best.prior.nodes);
+  tensors.support.assign(best.prior.support.begin(), best.prior.support.end());
+  for (const int hypothesis : sampled.assigned) {
+    const auto& prior = conditions.hypotheses[static_cast<std::size_t>(hypothesis)].prior;
     append(tensors.draw_prior, prior.nodes);
     tensors.draw_support.insert(tensors.draw_support.end(), prior.support.begin(),
                                 prior.support.end());

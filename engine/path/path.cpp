@@ -158,7 +158,23 @@ Result<Answer> trace_mask(const Frame& frame, int ropes, const Read<Answer>& rea
   });
 }
 
+Result<Glance> glance_at(const Frame& frame, float scale) {
+  const auto region = strokes_in(frame);
+  if (!region) return region.error();
+  return Glance{region->width_px / scale, region->filtered};
+}
+
 }  // namespace
+
+Result<Glance> glance(const Frame& frame) {
+  return guard::guarded("path", [&]() -> Result<Glance> {
+    const image::Rect box = bounding_box(frame);
+    const int times = reduction_of(frame, box);
+    if (times == 1) return glance_at(frame, 1);
+    const Reduced copy(frame, box, times);
+    return glance_at(copy.frame(), copy.scale());
+  });
+}
 
 Result<Traversals> trace(const Frame& frame, const TraceConfig& config) {
   const Read<Traversals> read = [&](const Strands& strands, const Region& region,

@@ -58,6 +58,15 @@ struct RopePaths {
 /// Costs by which a set of ropes may trail another one to be told of in RopePaths::lead.
 inline constexpr float kMostLead = 6;
 
+/// What a mask tells before its strands are told apart.
+struct Glance {
+  float rope_width_px = 0;  ///< of the strokes; where strands lie side by side, of all of them
+  bool filtered = false;    ///< as Traversals::filtered
+};
+
+/// Expects a valid frame. Fails with kNoPath where there is no stroke a rope could have drawn.
+[[nodiscard]] Result<Glance> glance(const Frame& frame);
+
 /// Mask (and depth, where there is any) to ordered paths. Expects a valid frame. Fails with
 /// kNoPath, saying why, when the mask holds no stroke a rope could have drawn.
 [[nodiscard]] Result<Traversals> trace(const Frame& frame, const TraceConfig& config = {});

@@ -36,7 +36,8 @@ enum class FieldChoice {
 /// How much of the model runs a frame.
 enum class Quality {
   kFull,  ///< Config::euler_steps and Config::draws
-  kFast,  ///< the K and D that, measured, lose nothing: the weights' metadata hold them
+  kFast,  ///< the K and D that, measured, lose nothing: the weights' metadata hold them; and none
+          ///< where what the strand field shows is sure
 };
 
 /// Most ropes of one frame that are told apart.
@@ -69,8 +70,8 @@ struct Config {
   int threads = 0;           ///< of the CPU back end; 0: one for each core
 
   /// Milliseconds that an estimate may take; 0: as long as it does. Of the model, the strand field
-  /// and the reading of the eroded mask, what would end too late is left out, going by what earlier
-  /// frames took; Estimate::left_out says what. The first reading of the mask is never left out: it
+  /// and further readings, what would end too late is left out, going by what earlier frames took;
+  /// Estimate::left_out says what. Where the strand field is, the mask is read, whatever is left: it
   /// takes 5 to 30 ms, on masks that are no rope up to a second. With a limit an estimate depends
   /// on how busy the machine is.
   double budget_ms = 0;

@@ -105,7 +105,7 @@ struct OneRope {
 enum class LeftOut {
   kModel,     ///< its draws: the estimate is a prior
   kField,     ///< the strand field
-  kReadings,  ///< the eroded mask
+  kReadings,  ///< the mask beside the strand field, or the eroded mask
 };
 
 /// "model", "strand_field" or "readings".
@@ -124,14 +124,15 @@ enum class LeftOut {
 /// Milliseconds of each stage of one call. The stages sum to total_ms; beside_ms is in no sum.
 struct Timings {
   double evidence_ms = 0;    ///< Sec. 3.2
-  double path_ms = 0;        ///< Sec. 3.3, mask to ordered path
+  double field_ms = 0;       ///< what the strand field shows
+  double path_ms = 0;        ///< Sec. 3.3, mask or field to ordered path
   double prior_ms = 0;       ///< Eq. (3.1)-(3.7), and comparing the traversals with the frame
-  double readings_ms = 0;    ///< further readings of the mask, as far as they were waited for
+  double readings_ms = 0;    ///< further readings, as far as they were waited for
   double mask_field_ms = 0;  ///< the field that the local features of Eq. (3.15) read
   double model_ms = 0;       ///< Eq. (3.26)-(3.28), upload and read-back included
   double gate_ms = 0;        ///< Eq. (3.30)-(3.33)
   double total_ms = 0;
-  double beside_ms = 0;  ///< further readings of the mask, while mask field and model ran
+  double beside_ms = 0;  ///< further readings, while mask field and model ran
   /// The parts of model_ms, as the device's clock saw them, in order of execution.
   std::vector<std::pair<std::string, double>> device_ms;
 };
@@ -147,7 +148,7 @@ struct Estimate {
   /// [64] metres. Calibrated gate: 68 % of nodes are nearer to the truth than this and 95 % nearer
   /// than twice this, doubt about the traversal included. Thesis gate: not calibrated.
   std::array<float, kNodes> sigma_m{};
-  int readings = 1;  ///< of the frame: mask, strand field, eroded mask; 1: another was not worth it
+  int readings = 1;  ///< of the frame: strand field, mask, eroded mask; 1: the first left no doubt
   Source source = Source::kPrior;  ///< which branch of Eq. (3.33)
   Origin origin = Origin::kFirstPrior;
   int draw = -1;            ///< index of the returned draw; -1: the prior
@@ -163,7 +164,7 @@ struct Estimate {
   std::vector<LeftOut> left_out;          ///< for want of time; empty without Config::budget_ms
   float mask_agreement = 0;               ///< S_M of `nodes`, Eq. (3.32), in [0, 1]
   float prior_mask_agreement = 0;         ///< S_M of the prior
-  std::vector<DrawReport> draws;          ///< one for each draw
+  std::vector<DrawReport> draws;          ///< one for each draw; none where the model was not asked
   std::vector<Alternative> alternatives;  ///< best first; may be empty
   bool reversed = false;  ///< by a hint the nodes run against the order that they have without one
   bool switched = false;  ///< by a hint another way through the mask was taken than without one;

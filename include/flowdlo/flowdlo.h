@@ -268,7 +268,7 @@ typedef struct flowdlo_estimate {
   int32_t source;                 /* FLOWDLO_SOURCE_: where the nodes come from */
   int32_t draw;                   /* index of the returned draw; -1: the prior */
   int32_t calibrated;             /* 1: the calibrated gate decided, 0: that of the thesis */
-  int32_t readings;               /* of the frame: mask, strand field, eroded mask */
+  int32_t readings;               /* of the frame: strand field, mask, eroded mask */
   uint32_t doubts;                /* FLOWDLO_DOUBT_ bits; 0: none */
   int32_t alternatives;           /* how many flowdlo_estimator_alternative has */
   int32_t accepted_draws;         /* draws that the gate found plausible */
@@ -281,6 +281,7 @@ typedef struct flowdlo_estimate {
   float bare_gap;                 /* longest stretch of nodes on plain background, widths */
   float goes_on;                  /* how far the rope goes on beyond the mask, widths */
   double evidence_ms;             /* milliseconds of each stage */
+  double field_ms;
   double path_ms;
   double prior_ms;
   double readings_ms;

@@ -2,6 +2,7 @@
 
 #include "estimator/candidates.hpp"
 #include "estimator/conditions.hpp"
+#include "estimator/judge.hpp"
 #include "estimator/refinement.hpp"
 #include "estimator/second_look.hpp"
 #include "eval/metrics.hpp"
@@ -48,7 +49,7 @@ std::optional<Drawn> draw(const Frame& frame, const estimator::Conditions& condi
 bool is_reread(const synth::SyntheticFrame& scene, weights::PriorKind kind, double rope_length_m) {
   const Frame frame = scene.frame();
   Timings timings;
-  const auto conditions = estimator::gather(frame, rope_length_m, kind, timings);
+  const auto conditions = estimator::gather(frame, {kind, rope_length_m}, timings);
   return conditions && estimator::worth_rereading(*conditions, frame);
 }
 
@@ -57,8 +58,18 @@ std::optional<GateSample> measure(const synth::SyntheticFrame& scene, flow::Samp
                                   weights::PriorKind kind, double rope_length_m) {
   const Frame frame = scene.frame();
   Timings timings;
-  const auto conditions = estimator::gather(frame, rope_length_m, kind, timings);
+  const estimator::ReadConfig reading{kind, rope_length_m};
+  auto conditions =
+      estimator::gather(frame, reading, timings, nullptr, estimator::seen_by(field, frame));
   if (!conditions) return std::nullopt;
+  const Hints none;
+  const estimator::Judge judge(true, none, *conditions, frame, rope_length_m, refine);
+  const auto first = judge.of_first(false);
+  if (!first) return std::nullopt;
+  const bool seen = conditions->axes.has_value();
+  if (!*first && seen && !estimator::read_mask(frame, reading, timings, *conditions)) {
+    return std::nullopt;
+  }
   const auto drawn = draw(frame, *conditions, sampler, draws);
   if (!drawn) return std::nullopt;
   GateSample sample;
@@ -68,9 +79,11 @@ std::optional<GateSample> measure(const synth::SyntheticFrame& scene, flow::Samp
   sample.hard = scene.meta.hard();
   sample.truth = eval::canonical(scene.truth());
   threads::Pool alone(1);
-  const auto look = estimator::Rereading(alone, estimator::worth_rereading(*conditions, frame),
-                                         field, *conditions, frame, rope_length_m, kind)
-                        .finish();
+  const auto look =
+      *first ? (*first)->look
+             : estimator::Rereading(alone, estimator::worth_rereading(*conditions, frame), field,
+                                    *conditions, frame, reading)
+                   .finish();
   sample.candidates =
       estimator::list_candidates(look, conditions->paths.rope_width_px, drawn->prediction,
                                  drawn->reports, drawn->assigned, frame, rope_length_m);

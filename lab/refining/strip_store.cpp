@@ -61,14 +61,13 @@ Result<std::optional<StripSample>> sample_of(const DataConfig& config, std::uint
                         {.color = seen, .matched = synth::evenly_spread(config.matched, number)});
   if (!scene) return scene.error();
   const Frame frame = scene->frame();
-  constexpr auto kKind = weights::PriorKind::kRefined;
   Timings timings;
-  const auto conditions = estimator::gather(frame, 0, kKind, timings);
+  const auto conditions = estimator::gather(frame, {}, timings);
   if (!conditions) return std::optional<StripSample>();
   threads::Pool alone(1);
   const auto look =
       estimator::Rereading(alone, seen && estimator::worth_rereading(*conditions, frame), field,
-                           *conditions, frame, 0, kKind)
+                           *conditions, frame, {})
           .finish();
   const auto candidates =
       estimator::list_candidates(look, conditions->paths.rope_width_px, {}, {}, {}, frame, 0);

@@ -62,7 +62,7 @@ Result<Ropes> by_priors(const Frame& frame, const RopesRun& run, RopesOutcome& o
     Timings timings;
     const path::Traversals traced = view.traversals();
     const auto conditions =
-        estimator::gather(view.frame(), 0, weights::PriorKind::kRefined, timings, {}, &traced);
+        estimator::gather(view.frame(), {}, timings, &traced);
     if (!conditions) return conditions.error();
     Estimate rope;
     rope.nodes = conditions->hypotheses.front().prior.nodes;

@@ -105,8 +105,7 @@ std::optional<Offsets> offsets(const Centerline& nodes, const Centerline& truth,
 std::optional<Offsets> measured(const synth::SyntheticFrame& scene,
                                 flowdlo::refine::Network* network) {
   flowdlo::Timings timings;
-  const auto conditions =
-      estimator::gather(scene.frame(), 0, flowdlo::weights::PriorKind::kRefined, timings);
+  const auto conditions = estimator::gather(scene.frame(), {}, timings);
   if (!conditions) return std::nullopt;
   auto result =
       offsets(conditions->hypotheses.front().prior.nodes, scene.truth(), scene.meta.radius_m);

@@ -16,7 +16,7 @@
 #include "command_line.hpp"
 #include "estimator/conditions.hpp"
 #include "estimator/confidence.hpp"
-#include "estimator/second_look.hpp"
+#include "estimator/judge.hpp"
 #include "eval/metrics.hpp"
 #include "field/axes.hpp"
 #include "field/channel.hpp"
@@ -129,7 +129,7 @@ flowdlo::Result<Outcome> measure(const Options& options, std::uint64_t index,
   flowdlo::Timings timings;
   auto begin = std::chrono::steady_clock::now();
   const auto conditions =
-      estimator::gather(frame, 0, flowdlo::weights::PriorKind::kRefined, timings);
+      estimator::gather(frame, {}, timings);
   if (!conditions) return conditions.error();
   outcome.mask_ms = ms_since(begin);
   const auto& of_mask = conditions->hypotheses;

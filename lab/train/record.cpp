@@ -11,7 +11,7 @@ Result<Record> make_record(const LabelledFrame& labelled, const RecordOptions& o
   if (auto valid = validate(labelled.frame); !valid) return valid.error();
   Timings timings;
   const auto conditions =
-      estimator::gather(labelled.frame, /*rope_length_m=*/0, options.prior_kind, timings);
+      estimator::gather(labelled.frame, {.prior_kind = options.prior_kind}, timings);
   if (!conditions) return conditions.error();
 
   Record record;

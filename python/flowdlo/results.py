@@ -67,6 +67,7 @@ class Timings:
     """Milliseconds of each stage of one call; all but `beside_ms` sum to `total_ms`."""
 
     evidence_ms: float
+    field_ms: float
     path_ms: float
     prior_ms: float
     readings_ms: float
@@ -94,7 +95,7 @@ class Estimate:
         that lies where it lay) or "draw".
     draw: index of the returned draw; None where the prior was returned.
     calibrated: whether the calibrated gate decided, not that of the thesis.
-    readings: of the mask; more than one where the first left doubt.
+    readings: of the frame; more than one where the first left doubt.
     one_rope: whether the mask is one rope; its `doubts` limit the confidence.
     mask_agreement, prior_mask_agreement: [0, 1], how well nodes and prior explain the mask.
     draws: what the gate saw of each draw.

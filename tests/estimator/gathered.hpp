@@ -10,7 +10,7 @@ namespace flowdlo::testing {
 /// Throws where there are none: a test without them shows nothing.
 inline estimator::Conditions gathered(const Frame& frame) {
   Timings timings;
-  auto conditions = estimator::gather(frame, 0, weights::PriorKind::kRefined, timings);
+  auto conditions = estimator::gather(frame, {}, timings);
   if (!conditions) throw std::runtime_error(conditions.error().message);
   return *std::move(conditions);
 }

@@ -29,9 +29,7 @@ class LookAgain : public ::testing::Test {
         field::Network::create(std::make_shared<const weights::FieldWeights>(*std::move(weights)),
                                [] { return reference::create_program(1); });
     threads::Pool pool(threads);
-    return estimator::Rereading(pool, true, &*network, conditions_, frame_, 0,
-                                weights::PriorKind::kRefined)
-        .finish();
+    return estimator::Rereading(pool, true, &*network, conditions_, frame_, {}).finish();
   }
   [[nodiscard]] bool worth_rereading() const {
     return estimator::worth_rereading(conditions_, frame_);
@@ -44,9 +42,7 @@ class LookAgain : public ::testing::Test {
 
  private:
   [[nodiscard]] estimator::SecondLook look(bool worth, threads::Pool& pool) const {
-    return estimator::Rereading(pool, worth, nullptr, conditions_, frame_, 0,
-                                weights::PriorKind::kRefined)
-        .finish();
+    return estimator::Rereading(pool, worth, nullptr, conditions_, frame_, {}).finish();
   }
 
  protected:
@@ -68,10 +64,14 @@ TEST_F(LookAgain, HoweverClearAFrameIsOtherReadingsSayWhatTheyHold) {
   }
 }
 
-TEST_F(LookAgain, WhatWasSeenByTheFieldIsReadAgainWhereItLeavesDoubtAlone) {
-  EXPECT_FALSE(estimator::worth_rereading(conditions_, frame_, /*seen=*/true));
-  conditions_.hypotheses.front().evidence.ring = true;  // whose ends are a guess
-  EXPECT_TRUE(estimator::worth_rereading(conditions_, frame_, /*seen=*/true));
+TEST_F(LookAgain, TheFirstReadingAloneIsOfOneMind) {
+  const auto first = estimator::first_look(conditions_, frame_);
+  EXPECT_EQ(first.readings, 1);
+  ASSERT_EQ(first.hypotheses.size(), conditions_.hypotheses.size());
+  EXPECT_EQ(first.hypotheses.front().votes, 1);
+  EXPECT_EQ(first.hypotheses.front().seen_odds, 0) << "the field was not asked";
+  conditions_.axes = field::Axes{};  // as if these paths ran along it
+  EXPECT_GT(estimator::first_look(conditions_, frame_).hypotheses.front().seen_odds, 0.9F);
 }
 
 TEST_F(LookAgain, ATangleIsReadOnce) {

@@ -1,0 +1,96 @@
+#include "estimator/judge.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "estimator/candidates.hpp"
+#include "estimator/confidence.hpp"
+#include "estimator/refinement.hpp"
+#include "gate/one_rope.hpp"
+
+namespace flowdlo::estimator {
+
+struct Judge::Chosen {
+  SecondLook look;
+  std::vector<gate::Candidate> candidates{};  // none as the thesis has it
+  Returned returned{};
+};
+
+Judge::Chosen Judge::choose(SecondLook look, const Sampled& sampled) const {
+  Chosen chosen{.look = std::move(look)};
+  if (!calibrated_) {
+    chosen.returned =
+        by_thesis(chosen.look.hypotheses, sampled.prediction, sampled.verdict, sampled.assigned);
+    return chosen;
+  }
+  chosen.candidates =
+      list_candidates(chosen.look, conditions_.paths.rope_width_px, sampled.prediction,
+                      sampled.verdict.draws, sampled.assigned, frame_, rope_length_m_);
+  chosen.returned =
+      by_score(chosen.candidates, hints_, conditions_, frame_, rope_length_m_, chosen.look);
+  return chosen;
+}
+
+Result<Judged> Judge::settle(Chosen chosen, const Sampled& sampled) const {
+  const auto moved = refined(chosen.returned, chosen.candidates, frame_, refine_);
+  if (!moved) return moved.error();
+  Judged judged;
+  judged.look = std::move(chosen.look);
+  judged.returned = std::move(chosen.returned);
+  const Returned& returned = judged.returned;
+  judged.nodes = returned.draw >= 0
+                     ? sampled.prediction.draws[static_cast<std::size_t>(returned.draw)]
+                     : judged.look.hypotheses[returned.hypothesis].prior.nodes;
+  if (*moved) judged.nodes = **moved;
+  judged.one_rope = gate::one_rope(judged.nodes, frame_, conditions_.paths.rope_width_px);
+  judged.confidence = gate::doubted(returned.confidence, judged.one_rope);
+  return judged;
+}
+
+Result<std::optional<Judged>> Judge::of_first(bool traced) const {
+  const auto& first = conditions_.hypotheses;
+  const bool clear = traced && confidence(first.front().evidence, lead(first)) >= kClear;
+  if (!calibrated_ || !(clear || conditions_.axes)) return std::optional<Judged>();
+  Chosen chosen = choose(first_look(conditions_, frame_), {});
+  if (!clear && chosen.returned.confidence < kSure) return std::optional<Judged>();
+  auto judged = settle(std::move(chosen), {});
+  if (!judged) return judged.error();
+  if (!clear && judged->confidence < kSure) return std::optional<Judged>();
+  return std::optional(*std::move(judged));
+}
+
+Result<Judged> Judge::of_all(SecondLook look, const Sampled& sampled) const {
+  return settle(choose(std::move(look), sampled), sampled);
+}
+
+Estimate conclude(Judged judged, std::vector<DrawReport> draws, const gate::DilatedMask& mask,
+                  const Frame& frame) {
+  const Returned& returned = judged.returned;
+  const auto& hypotheses = judged.look.hypotheses;
+  Estimate estimate;
+  estimate.source = returned.draw >= 0 ? Source::kPrediction : Source::kPrior;
+  estimate.origin = returned.origin;
+  estimate.draw = returned.draw;
+  estimate.nodes = judged.nodes;
+  estimate.support = hypotheses[returned.hypothesis].prior.support;
+  estimate.closed = hypotheses[returned.hypothesis].evidence.closed;
+  estimate.sigma_m = returned.sigma_m;
+  estimate.mask_agreement = mask.agreement(estimate.nodes, frame.intrinsics);
+  estimate.prior_mask_agreement = mask.agreement(hypotheses.front().prior.nodes, frame.intrinsics);
+  estimate.one_rope = std::move(judged.one_rope);
+  estimate.confidence = judged.confidence;
+  estimate.switched = returned.switched;
+  estimate.readings = judged.look.readings;
+  estimate.draws = std::move(draws);
+  for (std::size_t i = 0; i < hypotheses.size(); ++i) {
+    if (i == returned.hypothesis) continue;
+    const auto& other = hypotheses[i];
+    estimate.alternatives.push_back({other.prior.nodes, static_cast<float>(other.score),
+                                     mask.agreement(other.prior.nodes, frame.intrinsics)});
+  }
+  std::stable_sort(estimate.alternatives.begin(), estimate.alternatives.end(),
+                   [](const Alternative& a, const Alternative& b) { return a.score > b.score; });
+  return estimate;
+}
+
+}  // namespace flowdlo::estimator

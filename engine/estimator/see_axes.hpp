@@ -1,0 +1,21 @@
+// SeeAxes: how a reading asks for what the strand field shows.
+#pragma once
+
+#include <functional>
+#include <optional>
+
+#include "field/axes.hpp"
+#include "field/network.hpp"
+#include "flowdlo/frame.hpp"
+
+namespace flowdlo::estimator {
+
+/// What a strand field shows of a frame whose rope is so many pixels wide as its mask has it;
+/// nothing where the field is not to be asked, for want of time as well, or fails.
+using SeeAxes = std::function<std::optional<field::Axes>(float rope_width_px)>;
+
+/// What `network` sees of `frame`, both of which have to outlive it; null where there is none.
+/// `near_parts` as field::see's.
+[[nodiscard]] SeeAxes seen_by(field::Network* network, const Frame& frame, bool near_parts = false);
+
+}  // namespace flowdlo::estimator
