@@ -93,13 +93,14 @@ std::vector<AxisLine> parted(AxisLine line, const Surface& surface) {
 /// All lines' points by pixel, to find what else runs near a place.
 class Neighbours {
  public:
-  Neighbours(const std::vector<AxisLine>& lines, const image::Size& size) : at_(size, {-1, 0}) {
+  Neighbours(const std::vector<AxisLine>& lines, const Channels& field)
+      : at_(field.size(), field.map(), {-1, 0}) {
     for (std::size_t l = 0; l < lines.size(); ++l) {
       for (std::size_t i = 0; i < lines[l].points_px.size(); ++i) {
         const Vector2f& p = lines[l].points_px[i];
         const image::Point pixel = pixel_of(p);
-        if (image::all_of(size).contains(pixel)) {
-          at_.at(pixel) = {static_cast<int>(l), static_cast<int>(i)};
+        if (auto* const at = at_.find(pixel.y, pixel.x); at != nullptr) {
+          *at = {static_cast<int>(l), static_cast<int>(i)};
         }
       }
     }
@@ -116,8 +117,9 @@ class Neighbours {
         image::grown({middle.x, middle.y, 1, 1}, reach) & image::all_of(at_.size());
     for (int v = around.y; v < around.y + around.height; ++v) {
       for (int u = around.x; u < around.x + around.width; ++u) {
-        const auto& there = at_.at(v, u);
-        if (there[0] < 0) continue;
+        const auto* const found = at_.find(v, u);
+        if (found == nullptr || (*found)[0] < 0) continue;
+        const auto& there = *found;
         int apart = std::abs(there[1] - index);
         if (own.closed) apart = std::min(apart, count - apart);
         if (there[0] == line && apart <= kFar) continue;
@@ -130,7 +132,7 @@ class Neighbours {
   }
 
  private:
-  image::Image<std::array<int, 2>> at_;  // line, -1: none, and point
+  BlockImage<std::array<int, 2>> at_;  // line, -1: none, and point
 };
 
 /// By how much a line turns from before point `first` to behind point `last`, radians; 0 where it
@@ -192,8 +194,8 @@ std::vector<AxisLine> without(AxisLine line, std::vector<Stretch> stretches) {
 
 /// The lines without the short stretches where one comes close to another and turns: there it may
 /// have changed over to the other, for directions mix at a crossing.
-std::vector<AxisLine> untangled(const std::vector<AxisLine>& lines, const image::Size& size) {
-  const Neighbours neighbours(lines, size);
+std::vector<AxisLine> untangled(const std::vector<AxisLine>& lines, const Channels& field) {
+  const Neighbours neighbours(lines, field);
   std::vector<AxisLine> result;
   for (int l = 0; l < static_cast<int>(lines.size()); ++l) {
     AxisLine line = lines[static_cast<std::size_t>(l)];
@@ -224,7 +226,7 @@ void trim(AxisLine& line) {
 std::vector<AxisLine> axis_lines(const Channels& field) {
   const Surface surface(field);
   std::vector<AxisLine> lines;
-  for (AxisLine& whole : untangled(follow_ridges(field), field.size())) {
+  for (AxisLine& whole : untangled(follow_ridges(field), field)) {
     for (AxisLine& line : parted(std::move(whole), surface)) {
       if (line.points_px.size() < 2) continue;
       if (!line.closed) {

@@ -28,8 +28,8 @@ class Surface {
 
  private:
   [[nodiscard]] float pixel(int u, int v, Channel channel) const {
-    const bool inside = u >= 0 && v >= 0 && u < field_.width() && v < field_.height();
-    return inside ? field_.at(v, u)[channel] : 0.0F;
+    const auto* const found = field_.find(v, u);
+    return found != nullptr ? (*found)[channel] : 0.0F;
   }
 
   const Channels& field_;
