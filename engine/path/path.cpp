@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <memory>
 #include <string>
 #include <utility>
 
@@ -133,9 +134,8 @@ RopePaths better(RopePaths parted, RopePaths whole, int ropes) {
 }
 
 template <class Answer, class Join>
-Result<Answer> trace_region(const Frame& frame, int ropes, const Read<Answer>& read,
-                            const Join& join) {
-  auto region = clean(frame, ropes);
+Result<Answer> trace_region(const Frame& frame, Result<Region> region, int ropes,
+                            const Read<Answer>& read, const Join& join) {
   if (!region) return region.error();
   auto graph = graph_of(*region);
   if (!graph) return graph.error();
@@ -151,14 +151,26 @@ Result<Answer> trace_region(const Frame& frame, int ropes, const Read<Answer>& r
 
 // The answer for a mask; one that is too large to be traced as it is, is traced reduced.
 template <class Answer, class Join>
-Result<Answer> trace_mask(const Frame& frame, int ropes, const Read<Answer>& read,
-                          const Join& join) {
-  return trace_reduced<Answer>(frame, [&](const Frame& seen, const Reduced*) {
-    return trace_region(seen, ropes, read, join);
+Result<Answer> trace_mask(const Frame& frame, const Region* cleaned, int ropes,
+                          const Read<Answer>& read, const Join& join) {
+  return trace_reduced<Answer>(frame, [&](const Frame& seen, const Reduced* copy) {
+    const bool known = copy == nullptr && cleaned != nullptr;
+    return trace_region(seen, known ? Result<Region>(*cleaned) : clean(seen, ropes), ropes, read,
+                        join);
   });
 }
 
 }  // namespace
+
+Result<std::shared_ptr<const Region>> cleaned(const Frame& frame) {
+  using Shared = std::shared_ptr<const Region>;
+  return guard::guarded("path", [&]() -> Result<Shared> {
+    if (reduction_of(frame, bounding_box(frame)) > 1) return Shared();
+    auto region = clean(frame);
+    if (!region) return region.error();
+    return Shared(std::make_shared<const Region>(*std::move(region)));
+  });
+}
 
 Result<Traversals> trace(const Frame& frame, const TraceConfig& config) {
   const Read<Traversals> read = [&](const Strands& strands, const Region& region,
@@ -166,9 +178,10 @@ Result<Traversals> trace(const Frame& frame, const TraceConfig& config) {
     return rank(strands, region, seen, config);
   };
   return guard::guarded("path", [&] {
-    return trace_mask(frame, 1, read, [&](Traversals parted, const Traversals& whole) {
-      return merged(std::move(parted), whole, config);
-    });
+    return trace_mask(frame, config.cleaned.get(), 1, read,
+                      [&](Traversals parted, const Traversals& whole) {
+                        return merged(std::move(parted), whole, config);
+                      });
   });
 }
 
@@ -180,7 +193,7 @@ Result<RopePaths> trace_ropes(const Frame& frame, int ropes) {
     return rope_paths(strands, bonds, region, seen, ropes);
   };
   return guard::guarded("path", [&] {
-    return trace_mask(frame, ropes, read, [&](RopePaths parted, RopePaths whole) {
+    return trace_mask(frame, nullptr, ropes, read, [&](RopePaths parted, RopePaths whole) {
       return better(std::move(parted), std::move(whole), ropes);
     });
   });

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "flowdlo/frame.hpp"
@@ -32,11 +33,15 @@ struct Traversals {
   int strands = 0;          ///< stretches between crossings and ends that the mask was read as
 };
 
+struct Region;
+
 struct TraceConfig {
   int alternatives = 3;                 ///< kept beside the best
   double rope_length_m = 0;             ///< known length; 0: unknown
   std::vector<Eigen::Vector2f> ends{};  ///< where ends are known to be: (x / z, y / z) of the
                                         ///< camera frame, two at most
+  std::shared_ptr<const Region> cleaned{};  ///< as cleaned() has it, of the same frame; null: not
+                                            ///< known yet
 };
 
 /// A set of ropes that explains a mask.
@@ -57,6 +62,10 @@ struct RopePaths {
 
 /// Costs by which a set of ropes may trail another one to be told of in RopePaths::lead.
 inline constexpr float kMostLead = 6;
+
+/// The frame's mask as every reading of it begins: for those of one frame that are to share it.
+/// Null where the mask is too large to be read as it is. Fails as `trace` does.
+[[nodiscard]] Result<std::shared_ptr<const Region>> cleaned(const Frame& frame);
 
 /// Mask (and depth, where there is any) to ordered paths. Expects a valid frame. Fails with
 /// kNoPath, saying why, when the mask holds no stroke a rope could have drawn.
