@@ -108,8 +108,9 @@ class Follower {
     const float shift =
         bend < 0 ? 0.5F * (right - left) / bend : std::copysign(kMostShift_px, left - right);
     p += std::clamp(shift, -kMostShift_px, kMostShift_px) * across;
-    if (surface_.at(p, kCentre) < kFaint) return false;
-    const auto along = surface_.direction(p, heading);
+    const Surface::Spot spot = surface_.spot(p);
+    if (spot.at(kCentre) < kFaint) return false;
+    const auto along = Surface::direction(spot, heading);
     if (!along || along->dot(heading) < std::cos(kMostTurn)) return false;
     heading = *along;
     return true;

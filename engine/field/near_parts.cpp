@@ -137,9 +137,9 @@ void blend(StrandField& field, const StrandField& other, const NearParts& parts,
       if (share <= 0) continue;
       const Eigen::Vector2f place = other.region.to_region(
           field.region.to_frame({static_cast<float>(u), static_cast<float>(v)}));
+      const Surface::Spot spot = surface.spot(place);
       for (int c = 0; c < kChannels; ++c) {
-        const float seen =
-            surface.at(place, static_cast<Channel>(c)) + (c == kWidth ? octaves : 0.0F);
+        const float seen = spot.at(static_cast<Channel>(c)) + (c == kWidth ? octaves : 0.0F);
         (*at)[c] += share * (seen - (*at)[c]);
       }
     }

@@ -74,12 +74,13 @@ void put(const float* places, std::array<float, kChannels>* output) {
 
 /// What a block's places are given: the planes of 2 x 2 pixels each.
 void take(const PlanesOfPixel* input, float* places) {
-  for (int y = 0; y < kBlock_px; ++y) {
-    for (int x = 0; x < kBlock_px; ++x) {
-      const auto& from = input[y * kBlock_px + x];
-      float* to = places + (y / kFold * kBlockSide + x / kFold) * weights::kFieldInputs +
-                  y % kFold * kFold + x % kFold;
-      for (int c = 0; c < kPlanes; ++c) to[c * kPixelsOfPlace] = from[c];
+  for (int place = 0; place < kPlaces; ++place) {
+    const auto* const corner =
+        input + kFold * (place / kBlockSide * kBlock_px + place % kBlockSide);
+    float* const to = places + place * weights::kFieldInputs;
+    for (int i = 0; i < kPixelsOfPlace; ++i) {
+      const auto& from = corner[i / kFold * kBlock_px + i % kFold];
+      for (int c = 0; c < kPlanes; ++c) to[c * kPixelsOfPlace + i] = from[c];
     }
   }
 }
