@@ -20,8 +20,9 @@ class FlowdloFieldPeer final : public FieldPeer {
     }
     if (said == nullptr) return;
     said->clear();
+    const auto whole = channels->whole();
     for (std::size_t c = 0; c < field::kChannels; ++c) {
-      for (std::size_t i = 0; i < channels->total(); ++i) said->push_back(channels->data()[i][c]);
+      for (std::size_t i = 0; i < whole.total(); ++i) said->push_back(whole.data()[i][c]);
     }
   }
 

@@ -32,11 +32,12 @@ Result<bool> read_seen(const Frame& frame, const ReadConfig& config, const SeeAx
   Stopwatch stage;
   const auto glance = path::glance(frame);
   if (!glance) return glance.error();
+  conditions.cleaned = glance->cleaned;
   // Of noise a field shows noise, and the longer the more there is of it.
   auto axes = glance->filtered ? std::nullopt : see(glance->rope_width_px);
   stage.lap(timings.field_ms);
   if (!axes) return false;
-  auto paths = path::trace_strands(frame, *axes, config.trace());
+  auto paths = path::trace_strands(frame, *axes, config.trace(conditions.cleaned));
   stage.lap(timings.path_ms);
   const auto lifted =
       paths ? lift(*std::move(paths), frame, config, conditions) : Result<void>(paths.error());
@@ -77,7 +78,7 @@ Result<Conditions> gather(const Frame& frame, const ReadConfig& config, Timings&
 Result<void> read_mask(const Frame& frame, const ReadConfig& config, Timings& timings,
                        Conditions& conditions) {
   Stopwatch stage;
-  auto paths = path::trace(frame, config.trace());  // Sec. 3.3
+  auto paths = path::trace(frame, config.trace(conditions.cleaned));  // Sec. 3.3
   stage.lap(timings.path_ms);
   if (!paths) return paths.error();
   const auto lifted = lift(*std::move(paths), frame, config, conditions);

@@ -2,6 +2,7 @@
 // trainer both take it from here, so that a model sees in use what it saw in training.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -22,8 +23,10 @@ struct ReadConfig {
   double rope_length_m = 0;             ///< 0: unknown
   std::vector<Eigen::Vector2f> ends{};  ///< as path::TraceConfig's
 
-  [[nodiscard]] path::TraceConfig trace() const {
-    return {.rope_length_m = rope_length_m, .ends = ends};
+  /// `cleaned` as path::Glance has it; null: not known.
+  [[nodiscard]] path::TraceConfig trace(
+      const std::shared_ptr<const path::Region>& cleaned = {}) const {
+    return {.rope_length_m = rope_length_m, .ends = ends, .cleaned = cleaned};
   }
 };
 
@@ -32,9 +35,10 @@ struct Conditions {
   evidence::Cloud cloud;
   evidence::VisiblePoints visible;
   path::Traversals paths;
-  std::vector<Hypothesis> hypotheses;  ///< best first; never empty
-  std::optional<field::Axes> axes{};   ///< of the strand field, which the paths run along; nothing:
-                                       ///< they are the mask's, or were known already
+  std::vector<Hypothesis> hypotheses;             ///< best first; never empty
+  std::shared_ptr<const path::Region> cleaned{};  ///< the frame's mask, where it is known; or null
+  std::optional<field::Axes> axes{};  ///< of the strand field, which the paths run along; nothing:
+                                      ///< they are the mask's, or were known already
 };
 
 /// The first reading runs along `traced` where these paths are known already (else null), otherwise

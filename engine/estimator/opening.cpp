@@ -59,8 +59,9 @@ Result<FieldNetworks> open_field(const Config& config, const weights::Place& bes
     networks.refine = *std::move(refine);
   }
   loaded->refine.reset();
-  auto network = field::Network::create(
-      std::make_shared<const weights::FieldWeights>(*std::move(loaded)), cpu.make_program);
+  auto network =
+      field::Network::create(std::make_shared<const weights::FieldWeights>(*std::move(loaded)),
+                             cpu_back_end(config.threads).make_program);
   if (!network) return network.error();
   networks.field = *std::move(network);
   return networks;

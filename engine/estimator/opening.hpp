@@ -35,9 +35,9 @@ struct FieldNetworks {
   std::optional<refine::Network> refine{};  ///< moves nodes; not every file has it
 };
 
-/// Both on one thread of the CPU: the first works beside the model, the second takes a few
-/// milliseconds. None where they are off or have no weights: neither the configuration's nor
-/// `beside`, those that belong to the model. Fails as reading them does.
+/// On the CPU, the second on one thread, for it takes a few milliseconds. None where they are off
+/// or have no weights: neither the configuration's nor `beside`, those that belong to the model.
+/// Fails as reading them does.
 [[nodiscard]] Result<FieldNetworks> open_field(const Config& config, const weights::Place& beside);
 
 /// To the system, what making an estimator used once: a driver's compiler and the decoded weights

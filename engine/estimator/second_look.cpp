@@ -215,7 +215,7 @@ void Rereading::read(Read& result) {
   }
   result.begin = Clock::now();
   const float width_px = conditions_.paths.rope_width_px;
-  const path::TraceConfig config = config_.trace();
+  const path::TraceConfig config = config_.trace(conditions_.cleaned);
   const bool of_field = result.kind == Kind::kField;
   const auto trace = [&] {
     return of_field ? trace_seen(*field_, frame_, width_px, config, axes_)

@@ -90,19 +90,29 @@ std::vector<AxisLine> parted(AxisLine line, const Surface& surface) {
   return parts;
 }
 
-/// All lines' points by pixel, to find what else runs near a place.
+/// All lines' points by the cell of a grid that they lie in, to find what else runs near a place.
+/// Of those within one pixel the last one counts alone.
 class Neighbours {
  public:
-  Neighbours(const std::vector<AxisLine>& lines, const image::Size& size) : at_(size, {-1, 0}) {
-    for (std::size_t l = 0; l < lines.size(); ++l) {
-      for (std::size_t i = 0; i < lines[l].points_px.size(); ++i) {
-        const Vector2f& p = lines[l].points_px[i];
-        const image::Point pixel = pixel_of(p);
-        if (image::all_of(size).contains(pixel)) {
-          at_.at(pixel) = {static_cast<int>(l), static_cast<int>(i)};
-        }
+  Neighbours(const std::vector<AxisLine>& lines, const Channels& field)
+      : columns_(field.width() / kCell_px + 1),
+        rows_(field.height() / kCell_px + 1),
+        head_(static_cast<std::size_t>(columns_ * rows_), -1) {
+    using Name = std::array<int, 2>;
+    BlockImage<Name> last(field.size(), field.map(), Name{-1, 0});
+    for_points(lines, [&](const image::Point& pixel, const Entry& entry) {
+      if (Name* const at = last.find(pixel.y, pixel.x); at != nullptr) {
+        *at = {entry.line, entry.index};
       }
-    }
+    });
+    for_points(lines, [&](const image::Point& pixel, const Entry& entry) {
+      const Name* const at = last.find(pixel.y, pixel.x);
+      if (at == nullptr || *at != Name{entry.line, entry.index}) return;
+      int& head = head_[cell(pixel.x / kCell_px, pixel.y / kCell_px)];
+      entries_.push_back(entry);
+      entries_.back().next = head;
+      head = static_cast<int>(entries_.size()) - 1;
+    });
   }
 
   /// Whether another line, or a far stretch of the same one, runs within kClose_px of a point.
@@ -110,27 +120,53 @@ class Neighbours {
     const AxisLine& own = lines[static_cast<std::size_t>(line)];
     const Vector2f& p = own.points_px[static_cast<std::size_t>(index)];
     const auto count = static_cast<int>(own.points_px.size());
+    const auto is_close = [&](const Entry& there) {
+      int apart = std::abs(there.index - index);
+      if (own.closed) apart = std::min(apart, count - apart);
+      if (there.line == line && apart <= kFar) return false;
+      return (there.px - p).norm() <= kClose_px;
+    };
     const auto reach = static_cast<int>(kClose_px) + 1;
     const image::Point middle = pixel_of(p);
-    const image::Rect around =
-        image::grown({middle.x, middle.y, 1, 1}, reach) & image::all_of(at_.size());
-    for (int v = around.y; v < around.y + around.height; ++v) {
-      for (int u = around.x; u < around.x + around.width; ++u) {
-        const auto& there = at_.at(v, u);
-        if (there[0] < 0) continue;
-        int apart = std::abs(there[1] - index);
-        if (own.closed) apart = std::min(apart, count - apart);
-        if (there[0] == line && apart <= kFar) continue;
-        const AxisLine& other = lines[static_cast<std::size_t>(there[0])];
-        const Vector2f& q = other.points_px[static_cast<std::size_t>(there[1])];
-        if ((q - p).norm() <= kClose_px) return true;
+    const auto within = [](int px, int cells) { return std::clamp(px / kCell_px, 0, cells - 1); };
+    for (int y = within(middle.y - reach, rows_); y <= within(middle.y + reach, rows_); ++y) {
+      for (int x = within(middle.x - reach, columns_); x <= within(middle.x + reach, columns_);
+           ++x) {
+        for (int i = head_[cell(x, y)]; i >= 0; i = entries_[static_cast<std::size_t>(i)].next) {
+          if (is_close(entries_[static_cast<std::size_t>(i)])) return true;
+        }
       }
     }
     return false;
   }
 
  private:
-  image::Image<std::array<int, 2>> at_;  // line, -1: none, and point
+  static constexpr int kCell_px = 16;
+
+  struct Entry {
+    int line = 0;
+    int index = 0;  // of its point
+    Vector2f px{0, 0};
+    int next = -1;  // in the same cell; -1: none
+  };
+
+  template <class Visit>
+  static void for_points(const std::vector<AxisLine>& lines, const Visit& visit) {
+    for (std::size_t l = 0; l < lines.size(); ++l) {
+      for (std::size_t i = 0; i < lines[l].points_px.size(); ++i) {
+        const Vector2f& p = lines[l].points_px[i];
+        visit(pixel_of(p), Entry{static_cast<int>(l), static_cast<int>(i), p});
+      }
+    }
+  }
+  [[nodiscard]] std::size_t cell(int column, int row) const {
+    return static_cast<std::size_t>(row * columns_ + column);
+  }
+
+  int columns_;
+  int rows_;
+  std::vector<int> head_;  // [rows, columns] into `entries_`, -1: none
+  std::vector<Entry> entries_;
 };
 
 /// By how much a line turns from before point `first` to behind point `last`, radians; 0 where it
@@ -192,8 +228,8 @@ std::vector<AxisLine> without(AxisLine line, std::vector<Stretch> stretches) {
 
 /// The lines without the short stretches where one comes close to another and turns: there it may
 /// have changed over to the other, for directions mix at a crossing.
-std::vector<AxisLine> untangled(const std::vector<AxisLine>& lines, const image::Size& size) {
-  const Neighbours neighbours(lines, size);
+std::vector<AxisLine> untangled(const std::vector<AxisLine>& lines, const Channels& field) {
+  const Neighbours neighbours(lines, field);
   std::vector<AxisLine> result;
   for (int l = 0; l < static_cast<int>(lines.size()); ++l) {
     AxisLine line = lines[static_cast<std::size_t>(l)];
@@ -224,7 +260,7 @@ void trim(AxisLine& line) {
 std::vector<AxisLine> axis_lines(const Channels& field) {
   const Surface surface(field);
   std::vector<AxisLine> lines;
-  for (AxisLine& whole : untangled(follow_ridges(field), field.size())) {
+  for (AxisLine& whole : untangled(follow_ridges(field), field)) {
     for (AxisLine& line : parted(std::move(whole), surface)) {
       if (line.points_px.size() < 2) continue;
       if (!line.closed) {

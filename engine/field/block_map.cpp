@@ -29,34 +29,59 @@ std::array<int, 9> BlockMap::around(std::size_t i) const {
   return found;
 }
 
-BlockMap blocks_near(const image::Image<float>& mask) {
+BlockMap all_blocks(const image::Size& size) {
   BlockMap map;
-  map.columns = (mask.width() + kBlock_px - 1) / kBlock_px;
-  map.rows = (mask.height() + kBlock_px - 1) / kBlock_px;
-  std::vector<std::uint8_t> wanted(static_cast<std::size_t>(map.columns) *
-                                   static_cast<std::size_t>(map.rows));
-  const auto block = [](int px, int most) { return std::clamp(px / kBlock_px, 0, most - 1); };
-  for (int v = 0; v < mask.height(); ++v) {
-    const auto* row = mask.row(v);
-    const int top = block(v - kNear_px, map.rows);
-    const int bottom = block(v + kNear_px, map.rows);
-    for (int u = 0; u < mask.width(); ++u) {
-      if (row[u] <= kHalf) continue;
-      const int left = block(u - kNear_px, map.columns);
-      const int right = block(u + kNear_px, map.columns);
-      for (int y = top; y <= bottom; ++y) {
-        for (int x = left; x <= right; ++x)
-          wanted[static_cast<std::size_t>(y * map.columns + x)] = 1;
-      }
-    }
-  }
+  map.columns = (size.width + kBlock_px - 1) / kBlock_px;
+  map.rows = (size.height + kBlock_px - 1) / kBlock_px;
   for (int y = 0; y < map.rows; ++y) {
-    for (int x = 0; x < map.columns; ++x) {
-      if (wanted[static_cast<std::size_t>(y * map.columns + x)] != 0) map.blocks.push_back({x, y});
-    }
+    for (int x = 0; x < map.columns; ++x) map.blocks.push_back({x, y});
   }
   number(map);
   return map;
+}
+
+NearBlock near_block(const float* mask) {
+  NearBlock near{};
+  for (int v = 0; v < kBlock_px; ++v) {
+    for (int u = 0; u < kBlock_px; ++u) {
+      if (mask[v * kBlock_px + u] <= kHalf) continue;
+      const int top = v < kNear_px ? 0 : 1;
+      const int bottom = v + kNear_px < kBlock_px ? 1 : 2;
+      const int left = u < kNear_px ? 0 : 1;
+      const int right = u + kNear_px < kBlock_px ? 1 : 2;
+      for (int y = top; y <= bottom; ++y) {
+        for (int x = left; x <= right; ++x) near[static_cast<std::size_t>(3 * y + x)] = true;
+      }
+    }
+  }
+  return near;
+}
+
+BlockMap blocks_near(const BlockMap& all, const std::vector<NearBlock>& near) {
+  std::vector<char> wanted(all.blocks.size(), 0);
+  for (std::size_t i = 0; i < near.size(); ++i) {
+    const auto around = all.around(i);
+    for (std::size_t k = 0; k < around.size(); ++k) {
+      if (near[i][k] && around[k] >= 0) wanted[static_cast<std::size_t>(around[k])] = 1;
+    }
+  }
+  return those(all, [&](const image::Point& block) {
+    return wanted[static_cast<std::size_t>(block.y * all.columns + block.x)] != 0;
+  });
+}
+
+BlockMap blocks_near(const image::Image<float>& mask) {
+  const BlockMap all = all_blocks(mask.size());
+  std::vector<NearBlock> near;
+  for (const image::Point& block : all.blocks) {
+    std::array<float, kBlock_px * kBlock_px> shares{};
+    const image::Rect part = pixels_of(block) & image::all_of(mask.size());
+    for (int v = 0; v < part.height; ++v) {
+      std::copy_n(mask.row(part.y + v) + part.x, part.width, shares.data() + v * kBlock_px);
+    }
+    near.push_back(near_block(shares.data()));
+  }
+  return blocks_near(all, near);
 }
 
 BlockMap those(const BlockMap& map, const std::function<bool(const image::Point&)>& wanted) {

@@ -24,6 +24,11 @@ struct BlockMap {
   std::vector<image::Point> blocks;  ///< column and row of each
   std::vector<int> index;            ///< [rows, columns] into `blocks`, -1: not computed
 
+  /// The number of the block at a column and row of the map; -1: none.
+  [[nodiscard]] int number_of(const image::Point& at) const {
+    return index[static_cast<std::size_t>(at.y * columns + at.x)];
+  }
+
   /// [9] the blocks around block `i`, itself in the middle, row by row; -1: none.
   [[nodiscard]] std::array<int, 9> around(std::size_t i) const;
 };
@@ -33,8 +38,21 @@ struct BlockMap {
   return {block.x * kBlock_px, block.y * kBlock_px, kBlock_px, kBlock_px};
 }
 
+/// Of an image of that size.
+[[nodiscard]] BlockMap all_blocks(const image::Size& size);
+
 /// `mask`: the rope's share of each pixel of a region.
 [[nodiscard]] BlockMap blocks_near(const image::Image<float>& mask);
+
+/// Of a block that the mask covers: which of the blocks around it, itself in the middle, row by
+/// row, hold a pixel near the mask in it.
+using NearBlock = std::array<bool, 9>;
+
+/// `mask` [kBlock_px, kBlock_px].
+[[nodiscard]] NearBlock near_block(const float* mask);
+
+/// `near`: of each of `all` blocks of a region.
+[[nodiscard]] BlockMap blocks_near(const BlockMap& all, const std::vector<NearBlock>& near);
 
 /// The blocks of `map` that are `wanted` alone, by their column and row.
 [[nodiscard]] BlockMap those(const BlockMap& map,

@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "image/image.hpp"
+#include "field/block_image.hpp"
 
 namespace flowdlo::field {
 
@@ -26,7 +26,7 @@ enum Channel {
 inline constexpr float kCentreWidths = 0.25F;  ///< in kCentre and kUnder
 inline constexpr float kTipWidths = 0.7F;      ///< in kTip
 
-/// What is said of each pixel of a region.
-using Channels = image::Image<std::array<float, kChannels>>;
+/// What is said of each pixel of a region; nothing where its block was not computed.
+using Channels = BlockImage<std::array<float, kChannels>>;
 
 }  // namespace flowdlo::field

@@ -30,7 +30,7 @@ constexpr float kLeastLength_px = 0.75F * kRope_px;
 /// Which line passes through each pixel, and in which direction.
 class Marks {
  public:
-  explicit Marks(const image::Size& size) : marks_(size, {-1, 0}), angle_(size) {}
+  explicit Marks(const Channels& field) : marks_(field.size(), field.map(), Mark{}) {}
 
   /// What lies within `reach_px` of a line's point belongs to that line, unless to an earlier one.
   void set(const Vector2f& p, const Vector2f& along, float reach_px, int line, int index) {
@@ -40,12 +40,9 @@ class Marks {
     for (int v = middle.y - reach; v <= middle.y + reach; ++v) {
       for (int u = middle.x - reach; u <= middle.x + reach; ++u) {
         const Vector2f off = Vector2f(static_cast<float>(u), static_cast<float>(v)) - p;
-        if (!inside({u, v}) || off.norm() > reach_px) continue;
-        auto& mark = marks_.at(v, u);
-        const bool own = mark[0] == line && std::abs(mark[1] - index) <= kOwn;
-        if (mark[0] >= 0 && !own) continue;
-        mark = {line, index};
-        angle_.at(v, u) = angle;
+        Mark* const mark = marks_.find(v, u);
+        if (mark == nullptr || off.norm() > reach_px) continue;
+        if (mark->line < 0 || mark->just_left(line, index)) *mark = {line, index, angle};
       }
     }
   }
@@ -53,28 +50,32 @@ class Marks {
   /// Whether a line runs by here in that direction; not what `line` has just left behind.
   [[nodiscard]] bool taken(const Vector2f& p, const Vector2f& along, int line, int index) const {
     const image::Point pixel = pixel_of(p);
-    if (!inside(pixel)) return true;
-    const auto mark = marks_.at(pixel);
-    if (mark[0] < 0 || (mark[0] == line && std::abs(mark[1] - index) <= kOwn)) return false;
-    const float angle = angle_.at(pixel);
-    const float sine = along.y() * std::cos(angle) - along.x() * std::sin(angle);
+    if (!marks_.contains(pixel)) return true;
+    const Mark* const mark = marks_.find(pixel.y, pixel.x);
+    if (mark == nullptr || mark->line < 0 || mark->just_left(line, index)) return false;
+    const float sine = along.y() * std::cos(mark->angle) - along.x() * std::sin(mark->angle);
     return std::abs(sine) < std::sin(kOneLine);
   }
 
  private:
-  [[nodiscard]] bool inside(const image::Point& p) const {
-    return p.x >= 0 && p.y >= 0 && p.x < marks_.width() && p.y < marks_.height();
-  }
+  struct Mark {
+    int line = -1;    // -1: none
+    int index = 0;    // of its point
+    float angle = 0;  // radians
 
-  image::Image<std::array<int, 2>> marks_;  // the line, -1: none, and the number of its point
-  image::Image<float> angle_;               // radians
+    [[nodiscard]] bool just_left(int by, int at) const {
+      return line == by && std::abs(index - at) <= kOwn;
+    }
+  };
+
+  BlockImage<Mark> marks_;
 };
 
 /// Follows one ridge after another; none twice.
 class Follower {
  public:
   explicit Follower(const Channels& field)
-      : surface_(field), marks_(field.size()), most_(field.size().area()) {}
+      : surface_(field), marks_(field), most_(field.size().area()) {}
 
   /// The line through `seed`; fewer than two points where a line is there already.
   AxisLine follow(const RidgePoint& seed) {
@@ -107,8 +108,9 @@ class Follower {
     const float shift =
         bend < 0 ? 0.5F * (right - left) / bend : std::copysign(kMostShift_px, left - right);
     p += std::clamp(shift, -kMostShift_px, kMostShift_px) * across;
-    if (surface_.at(p, kCentre) < kFaint) return false;
-    const auto along = surface_.direction(p, heading);
+    const Surface::Spot spot = surface_.spot(p);
+    if (spot.at(kCentre) < kFaint) return false;
+    const auto along = Surface::direction(spot, heading);
     if (!along || along->dot(heading) < std::cos(kMostTurn)) return false;
     heading = *along;
     return true;

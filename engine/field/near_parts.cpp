@@ -35,16 +35,15 @@ image::Image<Cell> cells_of(const Channels& field) {
   image::Image<Cell> cells(
       {(field.width() + kCell_px - 1) / kCell_px, (field.height() + kCell_px - 1) / kCell_px},
       Cell{});
-  for (int v = 0; v < field.height(); ++v) {
-    const auto* at = field.row(v);
+  field.for_rows([&](int v, int first, const auto* at, int count) {
     Cell* row = cells.row(v / kCell_px);
-    for (int u = 0; u < field.width(); ++u) {
-      const float rope = at[u][kRope];
+    for (int i = 0; i < count; ++i) {
+      const float rope = at[i][kRope];
       if (rope < kRopeShown) continue;
-      row[u / kCell_px].rope += rope;
-      row[u / kCell_px].width += rope * at[u][kWidth];
+      row[(first + i) / kCell_px].rope += rope;
+      row[(first + i) / kCell_px].width += rope * at[i][kWidth];
     }
-  }
+  });
   return cells;
 }
 
@@ -64,14 +63,13 @@ Cell around(const image::Image<Cell>& cells, int u, int v) {
 float wide_octaves(const Channels& field) {
   std::vector<float> wide;
   std::size_t rope = 0;
-  for (int v = 0; v < field.height(); ++v) {
-    const auto* at = field.row(v);
-    for (int u = 0; u < field.width(); ++u) {
-      if (at[u][kRope] <= kSure) continue;
+  field.for_rows([&](int, int, const auto* at, int count) {
+    for (int i = 0; i < count; ++i) {
+      if (at[i][kRope] <= kSure) continue;
       ++rope;
-      if (at[u][kWidth] > kWide) wide.push_back(at[u][kWidth]);
+      if (at[i][kWidth] > kWide) wide.push_back(at[i][kWidth]);
     }
-  }
+  });
   const auto least =
       std::max(static_cast<float>(kLeastAsked), kLeastShare * static_cast<float>(rope));
   return static_cast<float>(wide.size()) < least ? 0.0F : geometry::median_of(wide);
@@ -133,16 +131,16 @@ BlockMap NearParts::needed(const BlockMap& blocks, const Region& other, const Re
 void blend(StrandField& field, const StrandField& other, const NearParts& parts, float octaves) {
   const Surface surface(other.channels);
   for (int v = 0; v < field.channels.height(); ++v) {
-    auto* at = field.channels.row(v);
     for (int u = 0; u < field.channels.width(); ++u) {
-      const float share = parts.share(u, v);
+      auto* const at = field.channels.find(v, u);
+      const float share = at != nullptr ? parts.share(u, v) : 0;
       if (share <= 0) continue;
       const Eigen::Vector2f place = other.region.to_region(
           field.region.to_frame({static_cast<float>(u), static_cast<float>(v)}));
+      const Surface::Spot spot = surface.spot(place);
       for (int c = 0; c < kChannels; ++c) {
-        const float seen =
-            surface.at(place, static_cast<Channel>(c)) + (c == kWidth ? octaves : 0.0F);
-        at[u][c] += share * (seen - at[u][c]);
+        const float seen = spot.at(static_cast<Channel>(c)) + (c == kWidth ? octaves : 0.0F);
+        (*at)[c] += share * (seen - (*at)[c]);
       }
     }
   }

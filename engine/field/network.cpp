@@ -60,13 +60,10 @@ class Recorder {
 float likely(float logit) { return 1 / (1 + std::exp(-logit)); }
 
 /// What a block's places say, pixel by pixel.
-void put(const float* places, const image::Point& block, Channels& output) {
+void put(const float* places, std::array<float, kChannels>* output) {
   for (int y = 0; y < kBlock_px; ++y) {
-    const int v = block.y * kBlock_px + y;
-    if (v >= output.height()) return;
-    const int left = block.x * kBlock_px;
-    for (int x = 0; x < kBlock_px && left + x < output.width(); ++x) {
-      float* const to = output.at(v, left + x).data();
+    for (int x = 0; x < kBlock_px; ++x) {
+      auto& to = output[y * kBlock_px + x];
       const float* from = places + (y / kFold * kBlockSide + x / kFold) * weights::kFieldOutputs +
                           y % kFold * kFold + x % kFold;
       for (int c = 0; c < kChannels; ++c) to[c] = from[c * kPixelsOfPlace];
@@ -76,16 +73,14 @@ void put(const float* places, const image::Point& block, Channels& output) {
 }
 
 /// What a block's places are given: the planes of 2 x 2 pixels each.
-void take(const Planes& input, const image::Point& block, float* places) {
-  for (int y = 0; y < kBlock_px; ++y) {
-    const int v = block.y * kBlock_px + y;
-    if (v >= input.height()) return;
-    const int left = block.x * kBlock_px;
-    for (int x = 0; x < kBlock_px && left + x < input.width(); ++x) {
-      const float* const from = input.at(v, left + x).data();
-      float* to = places + (y / kFold * kBlockSide + x / kFold) * weights::kFieldInputs +
-                  y % kFold * kFold + x % kFold;
-      for (int c = 0; c < kPlanes; ++c) to[c * kPixelsOfPlace] = from[c];
+void take(const PlanesOfPixel* input, float* places) {
+  for (int place = 0; place < kPlaces; ++place) {
+    const auto* const corner =
+        input + kFold * (place / kBlockSide * kBlock_px + place % kBlockSide);
+    float* const to = places + place * weights::kFieldInputs;
+    for (int i = 0; i < kPixelsOfPlace; ++i) {
+      const auto& from = corner[i / kFold * kBlock_px + i % kFold];
+      for (int c = 0; c < kPlanes; ++c) to[c * kPixelsOfPlace + i] = from[c];
     }
   }
 }
@@ -132,8 +127,7 @@ Result<Network> Network::create(std::shared_ptr<const weights::FieldWeights> wei
   return network;
 }
 
-Result<void> Network::run(const Planes& input, const BlockMap& blocks, const image::Rect& keep,
-                          Channels& output) {
+Result<void> Network::run(Look& look, const BlockMap& blocks, const image::Rect& keep) {
   const auto count = static_cast<int>(blocks.blocks.size());
   if (count > capacity_) {
     int capacity = capacity_;
@@ -156,28 +150,30 @@ Result<void> Network::run(const Planes& input, const BlockMap& blocks, const ima
   };
   const auto in = used(weights::kFieldInputs);
   std::fill(in.begin(), in.end(), 0.0F);
-  for (int i = 0; i < count; ++i) {
-    take(input, blocks.blocks[static_cast<std::size_t>(i)],
+  threads::share_out(look.pool, count, [&](int i) {
+    std::array<PlanesOfPixel, kBlock_px * kBlock_px> planes;  // all of them are given
+    look.planes_of(blocks.blocks[static_cast<std::size_t>(i)], planes.data());
+    take(planes.data(),
          in.data() + static_cast<std::ptrdiff_t>(i) * kPlaces * weights::kFieldInputs);
-  }
+  });
   program_->write(input_, in);
   if (auto done = program_->run(); !done) return done;
   const auto out = used(weights::kFieldOutputs);
   program_->read(output_, out);
-  for (int i = 0; i < count; ++i) {
+  threads::share_out(look.pool, count, [&](int i) {
     const image::Point& block = blocks.blocks[static_cast<std::size_t>(i)];
-    if (!keep.contains(block)) continue;
-    put(out.data() + static_cast<std::ptrdiff_t>(i) * kPlaces * weights::kFieldOutputs, block,
-        output);
-  }
+    if (!keep.contains(block)) return;
+    const int to = look.blocks.number_of(block);
+    put(out.data() + static_cast<std::ptrdiff_t>(i) * kPlaces * weights::kFieldOutputs,
+        look.output.block(static_cast<std::size_t>(to)));
+  });
   return {};
 }
 
-Result<void> Network::run_parts(const Planes& input, const BlockMap& blocks,
-                                const image::Rect& keep, Channels& output) {
-  const BlockMap part = cut(blocks, image::grown(keep, kHalo));
+Result<void> Network::run_parts(Look& look, const image::Rect& keep) {
+  const BlockMap part = cut(look.blocks, image::grown(keep, kHalo));
   const bool whole = part.blocks.size() <= static_cast<std::size_t>(kMostBlocks);
-  if (whole) return part.blocks.empty() ? Result<void>{} : run(input, part, keep, output);
+  if (whole) return part.blocks.empty() ? Result<void>{} : run(look, part, keep);
   image::Rect first = keep;
   image::Rect second = keep;
   if (keep.width >= keep.height) {
@@ -189,15 +185,27 @@ Result<void> Network::run_parts(const Planes& input, const BlockMap& blocks,
     second.y += first.height;
     second.height -= first.height;
   }
-  if (auto done = run_parts(input, blocks, first, output); !done) return done;
-  return run_parts(input, blocks, second, output);
+  if (auto done = run_parts(look, first); !done) return done;
+  return run_parts(look, second);
+}
+
+Result<Channels> Network::see(const image::Size& size, std::shared_ptr<const BlockMap> blocks,
+                              const PlanesOf& planes_of, threads::Pool* pool) {
+  const image::Rect everything{0, 0, blocks->columns, blocks->rows};
+  Look look{*blocks, planes_of, pool, Channels::over(size, blocks)};
+  if (auto done = run_parts(look, everything); !done) return done.error();
+  return look.output;
 }
 
 Result<Channels> Network::see(const Planes& input, const BlockMap& blocks) {
-  Channels output(input.size(), {});
-  const image::Rect everything{0, 0, blocks.columns, blocks.rows};
-  if (auto done = run_parts(input, blocks, everything, output); !done) return done.error();
-  return output;
+  const auto planes_of = [&](const image::Point& block, PlanesOfPixel* to) {
+    std::fill_n(to, kBlock_px * kBlock_px, PlanesOfPixel{});
+    const image::Rect part = pixels_of(block) & image::all_of(input.size());
+    for (int v = 0; v < part.height; ++v) {
+      std::copy_n(input.row(part.y + v) + part.x, part.width, to + v * kBlock_px);
+    }
+  };
+  return see(input.size(), std::make_shared<const BlockMap>(blocks), planes_of);
 }
 
 }  // namespace flowdlo::field

@@ -10,6 +10,7 @@
 #include "field/sight.hpp"
 #include "flowdlo/result.hpp"
 #include "ops/program.hpp"
+#include "threads/pool.hpp"
 #include "weights/field_weights.hpp"
 
 namespace flowdlo::field {
@@ -27,8 +28,15 @@ class Network {
   [[nodiscard]] static Result<Network> create(std::shared_ptr<const weights::FieldWeights> weights,
                                               ProgramFactory make_program);
 
-  /// What the network says of an input within `blocks`, elsewhere no rope. Centre, tip, under, rope
-  /// and edge lie between 0 and 1. Fails with kDeviceLost.
+  /// Gives the planes of a block, [kBlock_px, kBlock_px]; called from any thread.
+  using PlanesOf = std::function<void(const image::Point& block, PlanesOfPixel* to)>;
+
+  /// What the network says of blocks of a region of `size`, elsewhere nothing. Centre, tip, under,
+  /// rope and edge lie between 0 and 1. `pool` as threads::share_out has it. Fails with
+  /// kDeviceLost.
+  [[nodiscard]] Result<Channels> see(const image::Size& size,
+                                     std::shared_ptr<const BlockMap> blocks,
+                                     const PlanesOf& planes_of, threads::Pool* pool = nullptr);
   [[nodiscard]] Result<Channels> see(const Planes& input, const BlockMap& blocks);
 
   /// Milliseconds of the last program that ran, by stage.
@@ -41,11 +49,17 @@ class Network {
       : weights_(std::move(weights)), make_program_(std::move(make_program)) {}
 
   [[nodiscard]] Result<void> build(int capacity);
-  /// The blocks of one run; what it says goes to `output` for those that `keep` holds.
-  [[nodiscard]] Result<void> run(const Planes& input, const BlockMap& blocks,
-                                 const image::Rect& keep, Channels& output);
-  [[nodiscard]] Result<void> run_parts(const Planes& input, const BlockMap& blocks,
-                                       const image::Rect& keep, Channels& output);
+  /// What is looked at: all blocks, and what they are given and say.
+  struct Look {
+    const BlockMap& blocks;
+    const PlanesOf& planes_of;
+    threads::Pool* pool;
+    Channels output;
+  };
+
+  /// The blocks of one run; what it says goes to the output for those that `keep` holds.
+  [[nodiscard]] Result<void> run(Look& look, const BlockMap& blocks, const image::Rect& keep);
+  [[nodiscard]] Result<void> run_parts(Look& look, const image::Rect& keep);
 
   std::shared_ptr<const weights::FieldWeights> weights_;
   ProgramFactory make_program_;

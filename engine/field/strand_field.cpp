@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "field/channel.hpp"
@@ -24,12 +26,11 @@ constexpr int kMostFits = 6;             // and then once more
 /// The rope's width over kRope_px as the field has it, in the middle; 1 where it does not say.
 float seen_width(const Channels& field) {
   std::vector<float> widths;
-  for (int v = 0; v < field.height(); ++v) {
-    const auto* at = field.row(v);
-    for (int u = 0; u < field.width(); ++u) {
-      if (at[u][kCentre] > kSure && at[u][kRope] > kSure) widths.push_back(at[u][kWidth]);
+  field.for_rows([&](int, int, const auto* at, int count) {
+    for (int i = 0; i < count; ++i) {
+      if (at[i][kCentre] > kSure && at[i][kRope] > kSure) widths.push_back(at[i][kWidth]);
     }
-  }
+  });
   if (widths.size() < kLeastAsked) return 1;
   const auto middle = widths.begin() + static_cast<std::ptrdiff_t>(widths.size() / 2);
   std::nth_element(widths.begin(), middle, widths.end());
@@ -50,16 +51,16 @@ Error too_large(const image::Rect& box, float rope_width_px) {
                       box.height, rope_width_px)};
 }
 
-/// A region, and what of the frame lies there.
+/// A region, and which blocks of it are looked at.
 struct View {
   Region region;
-  Sight sight;
-  BlockMap blocks;
+  std::shared_ptr<const BlockMap> blocks;
 };
 
 /// The region at the rope's width, or magnified less as far as it takes and strands can still be
 /// parted. Fails with kNoEvidence where it would still be too large to be looked at.
-Result<View> view_of(const Frame& frame, const image::Rect& box, float rope_width_px) {
+Result<View> view_of(const Frame& frame, const image::Rect& box, float rope_width_px,
+                     threads::Pool* pool) {
   const image::Size size{frame.width, frame.height};
   const float magnified_px = std::max(rope_width_px, kRope_px / kMostScale);
   float width_px = magnified_px;
@@ -70,28 +71,40 @@ Result<View> view_of(const Frame& frame, const image::Rect& box, float rope_widt
       width_px *= kSpare * static_cast<float>(std::sqrt(pixels / kMostRegionPixels));
       continue;
     }
-    Sight sight = field::look(frame, region);
-    BlockMap blocks = blocks_near(sight.mask);
+    BlockMap blocks = blocks_near(frame, region, pool);
     const auto seen = static_cast<float>(blocks.blocks.size());
     if (blocks.blocks.size() <= kMostSeenBlocks) {
-      return View{region, std::move(sight), std::move(blocks)};
+      return View{region, std::make_shared<const BlockMap>(std::move(blocks))};
     }
     width_px *= kSpare * seen / static_cast<float>(kMostSeenBlocks);  // as many as it is long
   }
   return too_large(box, rope_width_px);
 }
 
+/// What the network says of `wanted` blocks of a view, all of which tell of the rope.
+Result<Channels> look_at(const Frame& frame, const View& view,
+                         const std::shared_ptr<const BlockMap>& wanted, Network& network,
+                         threads::Pool* pool) {
+  const NearSight sight = field::look(frame, view.region, view.blocks, pool);
+  const Input input(sight);
+  const auto planes_of = [&](const image::Point& block, PlanesOfPixel* to) {
+    input.planes_of(static_cast<std::size_t>(view.blocks->number_of(block)), to);
+  };
+  return network.see(view.region.size, wanted, planes_of, pool);
+}
+
 /// Looks once more, less magnified, where the rope is much wider than `seen` expects.
 Result<void> look_at_near_parts(const Frame& frame, const image::Rect& box, Network& network,
-                                StrandField& seen) {
+                                StrandField& seen, threads::Pool* pool) {
   const float octaves = wide_octaves(seen.channels);
   if (octaves <= 0) return {};
-  auto view = view_of(frame, box, std::exp2(octaves) * expected_width_px(seen.region));
+  auto view = view_of(frame, box, std::exp2(octaves) * expected_width_px(seen.region), pool);
   if (!view) return view.error();
   const NearParts parts(seen.channels, octaves);
-  const BlockMap blocks = parts.needed(view->blocks, view->region, seen.region);
-  if (blocks.blocks.empty()) return {};
-  auto channels = network.see(input_of(view->sight, blocks), blocks);
+  const auto blocks =
+      std::make_shared<const BlockMap>(parts.needed(*view->blocks, view->region, seen.region));
+  if (blocks->blocks.empty()) return {};
+  auto channels = look_at(frame, *view, blocks, network, pool);
   if (!channels) return channels.error();
   blend(seen, {view->region, *std::move(channels)}, parts, octaves);
   return {};
@@ -103,8 +116,8 @@ float width_px(const StrandField& seen) {
   return seen_width(seen.channels) * expected_width_px(seen.region);
 }
 
-Result<StrandField> see(const Frame& frame, float rope_width_px, Network& network,
-                        bool near_parts) {
+Result<StrandField> see(const Frame& frame, float rope_width_px, Network& network, bool near_parts,
+                        threads::Pool* pool) {
   const geometry::MaskBox mask = geometry::mask_box(frame);
   const image::Rect box{mask.left, mask.top, mask.width, mask.height};
   if (box.empty()) {
@@ -114,12 +127,10 @@ Result<StrandField> see(const Frame& frame, float rope_width_px, Network& networ
   StrandField result;
   float width_px = rope_width_px;
   for (int look = 0; look < kMostLooks; ++look) {
-    auto view = view_of(frame, box, width_px);
+    auto view = view_of(frame, box, width_px, pool);
     if (!view) return view.error();
     if (look > 0 && view->region.size.area() <= result.region.size.area()) break;
-    const Planes input = input_of(view->sight, view->blocks);
-    view->sight = {};  // six images of the region's size
-    auto seen = network.see(input, view->blocks);
+    auto seen = look_at(frame, *view, view->blocks, network, pool);
     if (!seen) return seen.error();
     result = {view->region, *std::move(seen)};
     const float share = seen_width(result.channels);
@@ -127,7 +138,7 @@ Result<StrandField> see(const Frame& frame, float rope_width_px, Network& networ
     width_px *= share;
   }
   if (!near_parts) return result;
-  const auto nearer = look_at_near_parts(frame, box, network, result);
+  const auto nearer = look_at_near_parts(frame, box, network, result, pool);
   if (!nearer) return nearer.error();
   return result;
 }

@@ -19,7 +19,7 @@ struct StrandField {
 /// A rope is at least so wide in the region for the field to part strands: narrower than believed.
 inline constexpr float kNarrow = 0.82F;
 
-/// Pixels of a region, 140 MB of them, and blocks of it near the mask, 0.4 s of one core, that are
+/// Pixels of a region, and blocks of it near the mask, 75 MB and 0.4 s of one core, that are
 /// looked at. A region beyond that is magnified less: down to a rope of kLeastWidth of its width.
 inline constexpr int kMostRegionPixels = 1 << 21;
 inline constexpr std::size_t kMostSeenBlocks = 1024;
@@ -28,10 +28,10 @@ inline constexpr float kLeastWidth = 0.5F;
 /// `rope_width_px` is the rope's width in the frame as far as it is known. Where the field itself
 /// says that the rope is narrower than kNarrow of that, as in a mask that merges strands, it is
 /// asked again at the width that it says. With `near_parts`, parts that come much nearer to the
-/// camera than the middle are looked at once more, less magnified (NearParts). Expects a valid
-/// frame with a mask. Fails with kNoEvidence where the mask is empty or spreads over more than is
-/// looked at, or as Network::see does.
+/// camera than the middle are looked at once more, less magnified (NearParts). `pool` as
+/// threads::share_out has it. Expects a valid frame with a mask. Fails with kNoEvidence where the
+/// mask is empty or spreads over more than is looked at, or as Network::see does.
 [[nodiscard]] Result<StrandField> see(const Frame& frame, float rope_width_px, Network& network,
-                                      bool near_parts = false);
+                                      bool near_parts = false, threads::Pool* pool = nullptr);
 
 }  // namespace flowdlo::field

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <optional>
 
 #include "field/channel.hpp"
@@ -19,19 +20,34 @@ class Surface {
  public:
   explicit Surface(const Channels& field) : field_(field) {}
 
-  [[nodiscard]] float at(const Eigen::Vector2f& p, Channel channel) const;
+  [[nodiscard]] float at(const Eigen::Vector2f& p, Channel channel) const {
+    return spot(p).at(channel);
+  }
+
+  /// A place, for whoever asks it for several channels.
+  class Spot {
+   public:
+    [[nodiscard]] float at(Channel channel) const {
+      const auto value = [&](int corner) { return (*corners_[corner])[channel]; };
+      return (1 - t_) * ((1 - s_) * value(0) + s_ * value(1)) +
+             t_ * ((1 - s_) * value(2) + s_ * value(3));
+    }
+
+   private:
+    friend class Surface;
+
+    std::array<const std::array<float, kChannels>*, 4> corners_{};  // row by row
+    float s_ = 0;
+    float t_ = 0;
+  };
+  [[nodiscard]] Spot spot(const Eigen::Vector2f& p) const;
 
   /// The unit direction of the strand that shows, of both the one nearer to `heading`; none where
   /// there is none.
-  [[nodiscard]] std::optional<Eigen::Vector2f> direction(const Eigen::Vector2f& p,
-                                                         const Eigen::Vector2f& heading) const;
+  [[nodiscard]] static std::optional<Eigen::Vector2f> direction(const Spot& spot,
+                                                                const Eigen::Vector2f& heading);
 
  private:
-  [[nodiscard]] float pixel(int u, int v, Channel channel) const {
-    const bool inside = u >= 0 && v >= 0 && u < field_.width() && v < field_.height();
-    return inside ? field_.at(v, u)[channel] : 0.0F;
-  }
-
   const Channels& field_;
 };
 

@@ -49,24 +49,23 @@ float FieldView::shown(const Vector2f& p, const Vector2f& along, bool below_only
   float most = 0;
   for (const float beside : kBeside_px) {
     const Vector2f q = middle + beside * across;
-    const float top = below_only ? 0 : surface.at(q, kCentre);
+    const Surface::Spot spot = surface.spot(q);
+    const float top = below_only ? 0 : spot.at(kCentre);
     if (top > most) {
-      most = std::max(most, top * sameness(surface.at(q, kCos), surface.at(q, kSin), along));
+      most = std::max(most, top * sameness(spot.at(kCos), spot.at(kSin), along));
     }
-    const float below = surface.at(q, kUnder);
+    const float below = spot.at(kUnder);
     if (below > most) {
-      most = std::max(most,
-                      below * sameness(surface.at(q, kUnderCos), surface.at(q, kUnderSin), along));
+      most = std::max(most, below * sameness(spot.at(kUnderCos), spot.at(kUnderSin), along));
     }
   }
   return std::min(1.0F, most);
 }
 
 float FieldView::width_px(const Vector2f& p) const {
-  const Surface surface(channels_);
-  const Vector2f at = to_region(p);
-  if (surface.at(at, kRope) < 0.5F) return 0;
-  return kRope_px * std::exp2(surface.at(at, kWidth)) / (0.5F * (scale_.x() + scale_.y()));
+  const Surface::Spot spot = Surface(channels_).spot(to_region(p));
+  if (spot.at(kRope) < 0.5F) return 0;
+  return kRope_px * std::exp2(spot.at(kWidth)) / (0.5F * (scale_.x() + scale_.y()));
 }
 
 float FieldView::tip_ahead(const Vector2f& p, const Vector2f& outward) const {

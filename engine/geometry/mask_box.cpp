@@ -5,26 +5,41 @@
 #include <cstdint>
 
 namespace flowdlo::geometry {
+namespace {
+
+bool lit(std::uint8_t value) { return value > 127; }
+
+/// Of so many pixels, all looked at: many at a time.
+bool any_lit(const std::uint8_t* pixels, int count) {
+  std::uint8_t all = 0;
+  for (int i = 0; i < count; ++i) all |= pixels[i];
+  return lit(all);
+}
+
+}  // namespace
 
 MaskBox mask_box(const Frame& frame) {
-  int top = -1;
-  int bottom = -1;
+  const auto row = [&](int v) {
+    return frame.mask.data() + static_cast<std::size_t>(v) * static_cast<std::size_t>(frame.width);
+  };
+  int top = 0;
+  while (top < frame.height && !any_lit(row(top), frame.width)) ++top;
+  if (top == frame.height) return {};
+  int bottom = frame.height - 1;
+  while (!any_lit(row(bottom), frame.width)) --bottom;
+  // What lies between columns that are known to be in the box is looked at no more.
   int left = frame.width;
   int right = -1;
-  for (int v = 0; v < frame.height; ++v) {
-    const std::uint8_t* row = frame.mask.data() + static_cast<std::size_t>(v) * frame.width;
-    const auto lit = [](std::uint8_t value) { return value > 127; };
-    const std::uint8_t* end = row + frame.width;
-    const std::uint8_t* first = std::find_if(row, end, lit);
-    if (first == end) continue;
-    const std::uint8_t* last = end - 1;
-    while (!lit(*last)) --last;
-    if (top < 0) top = v;
-    bottom = v;
-    left = std::min(left, static_cast<int>(first - row));
-    right = std::max(right, static_cast<int>(last - row));
+  for (int v = top; v <= bottom; ++v) {
+    const std::uint8_t* const pixels = row(v);
+    if (left == frame.width || any_lit(pixels, left)) {
+      left = static_cast<int>(std::find_if(pixels, pixels + left, lit) - pixels);
+    }
+    if (!any_lit(pixels + right + 1, frame.width - right - 1)) continue;
+    int last = frame.width - 1;
+    while (!lit(pixels[last])) --last;
+    right = last;
   }
-  if (top < 0) return {};
   return {left, top, right - left + 1, bottom - top + 1};
 }
 

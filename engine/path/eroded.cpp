@@ -35,7 +35,9 @@ Result<Traversals> trace_without_border(const Frame& frame, float rope_width_px,
   const image::Mask mask = shrunk(image::above(mask_in(frame, window.part), 127, 255), radius_px);
   const auto depth_m = depth_in(frame, window.part);
   const auto instances = instances_in(frame, window.part);
-  auto result = trace(frame_of(mask, depth_m, instances, window.camera(frame.intrinsics)), config);
+  TraceConfig own = config;
+  own.cleaned = nullptr;  // that is the mask with its border
+  auto result = trace(frame_of(mask, depth_m, instances, window.camera(frame.intrinsics)), own);
   if (!result) return result;
   window.restore(*result, {frame.width, frame.height});
   const float less_px = 2 * static_cast<float>(radius_px);

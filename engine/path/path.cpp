@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <memory>
 #include <string>
 #include <utility>
 
@@ -133,9 +134,8 @@ RopePaths better(RopePaths parted, RopePaths whole, int ropes) {
 }
 
 template <class Answer, class Join>
-Result<Answer> trace_region(const Frame& frame, int ropes, const Read<Answer>& read,
-                            const Join& join) {
-  auto region = clean(frame, ropes);
+Result<Answer> trace_region(const Frame& frame, Result<Region> region, int ropes,
+                            const Read<Answer>& read, const Join& join) {
   if (!region) return region.error();
   auto graph = graph_of(*region);
   if (!graph) return graph.error();
@@ -151,17 +151,13 @@ Result<Answer> trace_region(const Frame& frame, int ropes, const Read<Answer>& r
 
 // The answer for a mask; one that is too large to be traced as it is, is traced reduced.
 template <class Answer, class Join>
-Result<Answer> trace_mask(const Frame& frame, int ropes, const Read<Answer>& read,
-                          const Join& join) {
-  return trace_reduced<Answer>(frame, [&](const Frame& seen, const Reduced*) {
-    return trace_region(seen, ropes, read, join);
+Result<Answer> trace_mask(const Frame& frame, const Region* cleaned, int ropes,
+                          const Read<Answer>& read, const Join& join) {
+  return trace_reduced<Answer>(frame, [&](const Frame& seen, const Reduced* copy) {
+    const bool known = copy == nullptr && cleaned != nullptr;
+    return trace_region(seen, known ? Result<Region>(*cleaned) : clean(seen, ropes), ropes, read,
+                        join);
   });
-}
-
-Result<Glance> glance_at(const Frame& frame, float scale) {
-  const auto region = strokes_in(frame);
-  if (!region) return region.error();
-  return Glance{region->width_px / scale, region->filtered};
 }
 
 }  // namespace
@@ -170,9 +166,17 @@ Result<Glance> glance(const Frame& frame) {
   return guard::guarded("path", [&]() -> Result<Glance> {
     const image::Rect box = bounding_box(frame);
     const int times = reduction_of(frame, box);
-    if (times == 1) return glance_at(frame, 1);
-    const Reduced copy(frame, box, times);
-    return glance_at(copy.frame(), copy.scale());
+    if (times > 1) {
+      const Reduced copy(frame, box, times);
+      const auto region = clean(copy.frame());
+      if (!region) return region.error();
+      return Glance{region->width_px / copy.scale(), region->filtered, nullptr};
+    }
+    auto region = clean(frame);
+    if (!region) return region.error();
+    Glance result{region->width_px, region->filtered, nullptr};
+    result.cleaned = std::make_shared<const Region>(*std::move(region));
+    return result;
   });
 }
 
@@ -182,9 +186,10 @@ Result<Traversals> trace(const Frame& frame, const TraceConfig& config) {
     return rank(strands, region, seen, config);
   };
   return guard::guarded("path", [&] {
-    return trace_mask(frame, 1, read, [&](Traversals parted, const Traversals& whole) {
-      return merged(std::move(parted), whole, config);
-    });
+    return trace_mask(frame, config.cleaned.get(), 1, read,
+                      [&](Traversals parted, const Traversals& whole) {
+                        return merged(std::move(parted), whole, config);
+                      });
   });
 }
 
@@ -196,7 +201,7 @@ Result<RopePaths> trace_ropes(const Frame& frame, int ropes) {
     return rope_paths(strands, bonds, region, seen, ropes);
   };
   return guard::guarded("path", [&] {
-    return trace_mask(frame, ropes, read, [&](RopePaths parted, RopePaths whole) {
+    return trace_mask(frame, nullptr, ropes, read, [&](RopePaths parted, RopePaths whole) {
       return better(std::move(parted), std::move(whole), ropes);
     });
   });

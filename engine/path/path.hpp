@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "flowdlo/frame.hpp"
@@ -32,11 +33,15 @@ struct Traversals {
   int strands = 0;          ///< stretches between crossings and ends that the mask was read as
 };
 
+struct Region;
+
 struct TraceConfig {
-  int alternatives = 3;                 ///< kept beside the best
-  double rope_length_m = 0;             ///< known length; 0: unknown
-  std::vector<Eigen::Vector2f> ends{};  ///< where ends are known to be: (x / z, y / z) of the
-                                        ///< camera frame, two at most
+  int alternatives = 3;                     ///< kept beside the best
+  double rope_length_m = 0;                 ///< known length; 0: unknown
+  std::vector<Eigen::Vector2f> ends{};      ///< where ends are known to be: (x / z, y / z) of the
+                                            ///< camera frame, two at most
+  std::shared_ptr<const Region> cleaned{};  ///< as glance() has it, of the same frame; null: not
+                                            ///< known yet
 };
 
 /// A set of ropes that explains a mask.
@@ -60,11 +65,14 @@ inline constexpr float kMostLead = 6;
 
 /// What a mask tells before its strands are told apart.
 struct Glance {
-  float rope_width_px = 0;  ///< of the strokes; where strands lie side by side, of all of them
+  float rope_width_px = 0;  ///< of the strokes
   bool filtered = false;    ///< as Traversals::filtered
+  /// The frame's mask as every reading of it begins, for those that are to share it; null where the
+  /// mask is too large to be read as it is.
+  std::shared_ptr<const Region> cleaned{};
 };
 
-/// Expects a valid frame. Fails with kNoPath where there is no stroke a rope could have drawn.
+/// Expects a valid frame. Fails as `trace` does, of a mask without a stroke.
 [[nodiscard]] Result<Glance> glance(const Frame& frame);
 
 /// Mask (and depth, where there is any) to ordered paths. Expects a valid frame. Fails with

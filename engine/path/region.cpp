@@ -188,30 +188,6 @@ bool fill_highlights(image::Mask& mask, float width) {
   return true;
 }
 
-// What the mask holds before strands are told apart; its width is not known yet.
-Result<Region> uncut(const Frame& frame, int ropes) {
-  const image::Rect box = bounding_box(frame);
-  if (box.empty()) {
-    return Error{
-        ErrorCode::kNoPath,
-        "path: expected a rope in the mask, got no pixel above 127; check the segmentation"};
-  }
-  Region region;
-  region.offset_px = {box.x - kBorderPx, box.y - kBorderPx};
-  auto strokes = strokes_of(crop(frame, box), {frame.width, frame.height}, ropes);
-  if (!strokes) return strokes.error();
-  region.mask = std::move(strokes->mask);
-  region.filtered = strokes->filtered;
-  erase_fringes(region.mask);
-  if (erase_specks(region.mask, 0) == 0) {
-    return Error{ErrorCode::kNoPath, "path: expected a stroke, got only specks of fewer than " +
-                                         std::to_string(kSpeckAreaPx) +
-                                         " pixels; check the segmentation"};
-  }
-  region.distance_px = image::distance_to_empty(region.mask);
-  return region;
-}
-
 }  // namespace
 
 image::Rect bounding_box(const Frame& frame) {
@@ -225,12 +201,6 @@ bool lit(const image::Mask& mask, int u, int v) {
 
 bool lit(const image::Mask& mask, const Eigen::Vector2f& p) {
   return lit(mask, geometry::nearest_px(p.x()), geometry::nearest_px(p.y()));
-}
-
-Result<Region> strokes_in(const Frame& frame) {
-  auto region = uncut(frame, 1);
-  if (region) region->width_px = ridge_widths(region->distance_px).usual_px;
-  return region;
 }
 
 Region cut(const Region& region, const std::vector<std::vector<Eigen::Vector2f>>& lines) {
@@ -281,9 +251,25 @@ Region smoothed(const Region& region, int size_px) {
 }
 
 Result<Region> clean(const Frame& frame, int ropes) {
-  auto whole = uncut(frame, ropes);
-  if (!whole) return whole;
-  Region region = *std::move(whole);
+  const image::Rect box = bounding_box(frame);
+  if (box.empty()) {
+    return Error{
+        ErrorCode::kNoPath,
+        "path: expected a rope in the mask, got no pixel above 127; check the segmentation"};
+  }
+  Region region;
+  region.offset_px = {box.x - kBorderPx, box.y - kBorderPx};
+  auto strokes = strokes_of(crop(frame, box), {frame.width, frame.height}, ropes);
+  if (!strokes) return strokes.error();
+  region.mask = std::move(strokes->mask);
+  region.filtered = strokes->filtered;
+  erase_fringes(region.mask);
+  if (erase_specks(region.mask, 0) == 0) {
+    return Error{ErrorCode::kNoPath, "path: expected a stroke, got only specks of fewer than " +
+                                         std::to_string(kSpeckAreaPx) +
+                                         " pixels; check the segmentation"};
+  }
+  region.distance_px = image::distance_to_empty(region.mask);
   cut_seams(frame, region);
   const image::Mask measured = region.mask.clone();
   erase_specks(region.mask, kSpeckWidths * region.width_px * region.width_px);

@@ -36,10 +36,6 @@ struct Region {
 /// The smallest rectangle that holds the mask; empty without any.
 [[nodiscard]] image::Rect bounding_box(const Frame& frame);
 
-/// The mask of one rope, cropped and without specks, before anything is cut or filled. Fails as
-/// `clean`.
-[[nodiscard]] Result<Region> strokes_in(const Frame& frame);
-
 /// Crops and cleans the mask. Fails with kNoPath when it is empty, holds specks only, or more
 /// strokes than one rope, or several, can have made (`strokes_of`).
 [[nodiscard]] Result<Region> clean(const Frame& frame, int ropes = 1);

@@ -192,8 +192,9 @@ Strands strands_of(const Frame& frame, const field::Axes& axes, const Region& re
 Result<Traversals> trace_strands(const Frame& frame, const field::Axes& axes,
                                  const TraceConfig& config) {
   const auto trace = [&](const Frame& seen, const field::Axes& lines,
-                         const Reduced*) -> Result<Traversals> {
-    const auto region = clean(seen);
+                         const Reduced* copy) -> Result<Traversals> {
+    const bool known = copy == nullptr && config.cleaned != nullptr;
+    const auto region = known ? Result<Region>(*config.cleaned) : clean(seen);
     if (!region) return region.error();
     return rank(strands_of(seen, lines, *region), *region, seen, config);
   };

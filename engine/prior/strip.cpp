@@ -122,6 +122,7 @@ Side ground_beside(const Station& station, float direction, float edge_px, const
   const auto from = static_cast<int>(std::lround(kGroundFromPx * image.scale()));
   const auto to = static_cast<int>(std::lround(kGroundToPx * image.scale()));
   std::vector<float> depths;
+  depths.reserve(static_cast<std::size_t>(to));
   for (int step = 2; step <= to; ++step) {
     const Vector2f p =
         station.point_px + direction * (edge_px + static_cast<float>(step)) * station.normal;

@@ -136,13 +136,16 @@ FLOWDLO_INLINE void multiply(const float* x, int in, const float* panel, float* 
 
 FLOWDLO_INLINE void multiply_all(const float* x, int tiles, int in, const float* panel,
                                  float* products) {
-  constexpr int kMost = kTileRows >= 8 ? 8 : 4;
+  constexpr int kMost = kTileRows >= 8 ? 8 : kTileRows;
   int row = 0;
   for (; row + kMost <= tiles; row += kMost) {
     multiply<kMost>(x + floats(row, in), in, panel, products + floats(row, kPanel));
   }
   for (; row + 4 <= tiles; row += 4) {
     multiply<4>(x + floats(row, in), in, panel, products + floats(row, kPanel));
+  }
+  for (; row + 2 <= tiles; row += 2) {
+    multiply<2>(x + floats(row, in), in, panel, products + floats(row, kPanel));
   }
   for (; row < tiles; ++row) {
     multiply<1>(x + floats(row, in), in, panel, products + floats(row, kPanel));

@@ -67,4 +67,12 @@ void Beside::do_one(std::unique_lock<std::mutex>& held) {
   if (under_way_ == 0 && !has_more()) pool_.changed_.notify_all();
 }
 
+void share_out(Pool* pool, int pieces, const std::function<void(int)>& work) {
+  if (pool != nullptr && pieces > 1) {
+    Beside(*pool, pieces, work).finish();
+    return;
+  }
+  for (int piece = 0; piece < pieces; ++piece) work(piece);
+}
+
 }  // namespace flowdlo::threads

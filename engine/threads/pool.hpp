@@ -61,4 +61,9 @@ class Beside {
   std::exception_ptr thrown_;
 };
 
+/// work(0) up to work(pieces - 1), each once, on a pool's threads and the caller's; without a pool,
+/// or where it is at work on something else, on the caller's alone. Of what the pieces throw, one
+/// is thrown again here.
+void share_out(Pool* pool, int pieces, const std::function<void(int)>& work);
+
 }  // namespace flowdlo::threads

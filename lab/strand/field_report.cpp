@@ -200,7 +200,8 @@ flowdlo::Result<Outcome> measure(const Options& options, std::uint64_t index,
   outcome.blocks = field::blocks_near(looked.mask).blocks.size();
   outcome.field =
       strand::measure(strands, mask, field::ridges(seen->channels), field::tips(seen->channels));
-  strand::measure_crossings(strands, flowdlo::mat::mat_over(seen->channels), outcome.field);
+  const auto channels = seen->channels.whole();
+  strand::measure_crossings(strands, flowdlo::mat::mat_over(channels), outcome.field);
   outcome.thinning = strand::measure(strands, mask, strand::thinned(mask), {});
   outcome.tips = strand::tip_levels(strands, seen->channels, kLeastTip);
   if (drawn != nullptr) *drawn = picture(dropped.frame, *seen, strands, outcome.tips);

@@ -129,11 +129,11 @@ TEST(AxisLines, ALineThatTurnsWhereAnotherOneComesCloseIsCutThere) {
 TEST(AxisLines, AFieldOfNothingHasNone) { EXPECT_TRUE(axis_lines(Channels({64, 64}, {})).empty()); }
 
 TEST(AxisLines, AnyFieldEndsAndGivesTheSameLines) {
-  Channels field({96, 96});
+  Channels field({96, 96}, {});
   std::mt19937 random(7);
   std::uniform_real_distribution<float> value(-1, 1);
-  for (std::size_t i = 0; i < field.total(); ++i) {
-    for (float& channel : field.data()[i]) channel = value(random);
+  for (int i = 0; i < field.size().area(); ++i) {
+    for (float& channel : field.at(i / 96, i % 96)) channel = value(random);
   }
   const auto first = axis_lines(field);
   const auto second = axis_lines(field);

@@ -44,8 +44,8 @@ TEST(Ridge, LiesOnTheAxisWithinAnEighthOfAPixelInEveryDirection) {
 
 TEST(Ridge, WhatIsFaintIsNone) {
   Channels field = straight(0.4F, {32, 32});
-  for (std::size_t i = 0; i < field.total(); ++i) {
-    for (float& channel : field.data()[i]) channel *= 0.3F;
+  for (int i = 0; i < field.size().area(); ++i) {
+    for (float& channel : field.at(i / 64, i % 64)) channel *= 0.3F;
   }
   EXPECT_TRUE(ridges(field).empty());
 }

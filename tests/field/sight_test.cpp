@@ -80,17 +80,20 @@ TEST(Sight, APictureOfOneColorIsNone) {
 TEST(Sight, BlocksOnTheirOwnAreThoseOfTheWhole) {
   const Scene scene;
   const Frame frame = scene.frame();
-  const Sight sight = look(frame, region_around({0, 28, 30, 8}, {96, 64}, 8));
-  const Planes whole = input_of(sight);
-  const BlockMap blocks = blocks_near(sight.mask);
-  const Planes parts = input_of(sight, blocks);
-  ASSERT_FALSE(blocks.blocks.empty());
-  for (const image::Point& block : blocks.blocks) {
-    const image::Rect pixels = pixels_of(block) & image::all_of(whole.size());
-    for (int v = pixels.y; v < pixels.y + pixels.height; ++v) {
-      EXPECT_TRUE(std::equal(whole.row(v) + pixels.x, whole.row(v) + pixels.x + pixels.width,
-                             parts.row(v) + pixels.x));
-    }
+  for (const float rope_width_px : {3.0F, 5.0F, 8.0F, 11.0F}) {
+    const Region region = region_around({0, 28, 30, 8}, {96, 64}, rope_width_px);
+    const Sight sight = look(frame, region);
+    const Planes whole = input_of(sight);
+    threads::Pool pool(2);
+    const auto blocks = std::make_shared<const BlockMap>(blocks_near(frame, region, &pool));
+    ASSERT_EQ(blocks->blocks, blocks_near(sight.mask).blocks);
+    const NearSight near = look(frame, region, blocks, &pool);
+    const Input input(near);
+    auto parts = BlockImage<PlanesOfPixel>::over(region.size, blocks);
+    for (std::size_t i = 0; i < blocks->blocks.size(); ++i) input.planes_of(i, parts.block(i));
+    parts.for_rows([&](int v, int u, const PlanesOfPixel* at, int count) {
+      EXPECT_TRUE(std::equal(at, at + count, whole.row(v) + u)) << rope_width_px;
+    });
   }
 }
 

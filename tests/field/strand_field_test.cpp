@@ -50,7 +50,7 @@ TEST(StrandField, ALongThinRopeIsMagnifiedLess) {
   auto network = seeded();
   const auto field = see({kSide, kSide, {400, 400, 210, 210}, depth_m, mask, {}}, 2, network);
   ASSERT_TRUE(field) << field.error().message;
-  EXPECT_LE(field->channels.total(), static_cast<std::size_t>(kMostRegionPixels));
+  EXPECT_LE(field->channels.size().area(), kMostRegionPixels);
   EXPECT_LT(field->region.scale.x(), kMostScale);
   EXPECT_GE(field->region.scale.x(), kLeastWidth * kMostScale);
 }

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "canvas.hpp"
+#include "path/eroded.hpp"
 
 namespace flowdlo::test {
 namespace {
@@ -199,6 +200,43 @@ TEST(Path, TellsAKnownLengthFromAWrongOne) {
 
   ASSERT_TRUE(shorter);
   EXPECT_GT(distance_to(shorter->ranked.front().points_px, {320, 200}), 100.0F);
+}
+
+TEST(Path, ReadingsOfOneFrameMayShareTheCleanedMask) {
+  const Canvas canvas = Canvas().stroke(wave(), 12);
+  const Frame frame = canvas.frame();
+  const auto alone = path::trace(frame);
+  const auto alone_eroded = path::trace_eroded(frame, 12);
+
+  const auto seen = path::glance(frame);
+
+  ASSERT_TRUE(seen && seen->cleaned);
+  EXPECT_FALSE(seen->filtered);
+  EXPECT_NEAR(seen->rope_width_px, 12, 2);
+  for (int time = 0; time < 2; ++time) {  // a reading leaves what it shares as it was
+    const auto traced = path::trace(frame, {.cleaned = seen->cleaned});
+    ASSERT_TRUE(alone && traced);
+    EXPECT_EQ(traced->ranked.front().points_px, alone->ranked.front().points_px);
+    EXPECT_EQ(traced->rope_width_px, alone->rope_width_px);
+    const auto eroded = path::trace_eroded(frame, 12, {.cleaned = seen->cleaned});
+    ASSERT_TRUE(alone_eroded && eroded);
+    EXPECT_EQ(eroded->ranked.front().points_px, alone_eroded->ranked.front().points_px);
+  }
+}
+
+TEST(Path, AMaskThatIsReadReducedHasNothingToShare) {
+  const Canvas canvas =
+      Canvas(4096, 4096).stroke(Curve{{300, 3500}, {2000, 700}, {3700, 3300}}, 60);
+  const auto seen = path::glance(canvas.frame());
+  ASSERT_TRUE(seen);
+  EXPECT_EQ(seen->cleaned, nullptr);
+  EXPECT_NEAR(seen->rope_width_px, 60, 6);
+}
+
+TEST(Path, AnEmptyMaskHasNothingToShareAndSaysSo) {
+  const auto seen = path::glance(Canvas().frame());
+  ASSERT_FALSE(seen);
+  EXPECT_EQ(seen.error().code, ErrorCode::kNoPath);
 }
 
 }  // namespace

@@ -15,7 +15,8 @@ namespace {
 constexpr float kFocal_px = 500;
 
 field::Channels shown(const Targets& targets) {
-  return mat::image_of<std::array<float, field::kChannels>>(targets.field);
+  return field::Channels(image::Image<const std::array<float, field::kChannels>>(
+      mat::image_of<std::array<float, field::kChannels>>(targets.field)));
 }
 
 cv::Mat mask_of(const std::vector<Strand>& strands, const cv::Size& size) {

@@ -102,5 +102,23 @@ TEST(Pool, NothingToDoIsDoneAtOnce) {
   nothing.finish();
 }
 
+TEST(Pool, SharedOutWorkIsDoneOnceWithAPoolAndWithout) {
+  Pool pool(3);
+  for (Pool* const which : {&pool, static_cast<Pool*>(nullptr)}) {
+    std::vector<std::atomic<int>> done(100);
+    share_out(which, 100, [&](int piece) { ++done[static_cast<std::size_t>(piece)]; });
+    for (const auto& times : done) EXPECT_EQ(times, 1);
+  }
+}
+
+TEST(Pool, WhatSharedOutWorkThrowsComesToItsCaller) {
+  Pool pool(2);
+  const auto fails = [](int piece) {
+    if (piece == 5) throw std::runtime_error("five");
+  };
+  EXPECT_THROW(share_out(&pool, 9, fails), std::runtime_error);
+  EXPECT_THROW(share_out(nullptr, 9, fails), std::runtime_error);
+}
+
 }  // namespace
 }  // namespace flowdlo::threads

@@ -1,0 +1,45 @@
+#include "geometry/mask_box.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <random>
+#include <vector>
+
+namespace flowdlo::geometry {
+namespace {
+
+TEST(MaskBox, HoldsEveryPixelAbove127AndNoRowOrColumnWithoutOne) {
+  constexpr int kWidth = 67;
+  constexpr int kHeight = 41;
+  std::mt19937 random(5);
+  for (int count = 0; count < 40; ++count) {
+    std::vector<std::uint8_t> mask(kWidth * kHeight, 127);
+    int left = kWidth;
+    int right = -1;
+    int top = kHeight;
+    int bottom = -1;
+    for (int i = 0; i < count / 4; ++i) {
+      const auto at = static_cast<int>(random() % mask.size());
+      mask[static_cast<std::size_t>(at)] = i % 2 == 0 ? 128 : 255;
+      left = std::min(left, at % kWidth);
+      right = std::max(right, at % kWidth);
+      top = std::min(top, at / kWidth);
+      bottom = std::max(bottom, at / kWidth);
+    }
+    const std::vector<float> depth_m(mask.size(), 1.0F);
+    const MaskBox box = mask_box({kWidth, kHeight, {}, depth_m, mask, {}});
+    if (right < 0) {
+      EXPECT_EQ(box.width, 0);
+      EXPECT_EQ(box.height, 0);
+      continue;
+    }
+    EXPECT_EQ(box.left, left);
+    EXPECT_EQ(box.top, top);
+    EXPECT_EQ(box.width, right - left + 1);
+    EXPECT_EQ(box.height, bottom - top + 1);
+  }
+}
+
+}  // namespace
+}  // namespace flowdlo::geometry
