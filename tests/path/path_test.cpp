@@ -3,14 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 
 #include "canvas.hpp"
 
 namespace flowdlo::test {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 Curve wave() {
   return curve_of([](double t) {
