@@ -8,11 +8,11 @@
 namespace flowdlo::eval {
 namespace {
 
-using test::TemporaryFolder;
+using flowdlo::test::TemporaryFolder;
 using testing::HasSubstr;
 
 Result<SceneInfo> read(const TemporaryFolder& folder, const char* text) {
-  test::write_text(folder.path() / "meta.json", text);
+  flowdlo::test::write_text(folder.path() / "meta.json", text);
   return read_scene_info(folder.path());
 }
 

@@ -6,8 +6,8 @@
 namespace flowdlo::field {
 namespace {
 
-using testing::Each;
-using testing::ElementsAre;
+using ::testing::Each;
+using ::testing::ElementsAre;
 
 /// A mask of a spot of 12 x 12 px around the corner of four pixels, which covers so much of each.
 image::Image<float> spot(int width, int height, int u, int v, float share = 1) {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <limits>
+#include <numbers>
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
@@ -15,6 +16,8 @@ namespace flowdlo::test {
 
 using Eigen::Vector2f;
 using Curve = std::vector<cv::Point>;
+
+inline constexpr double kPi = std::numbers::pi;
 
 class Canvas {
  public:

@@ -1,15 +1,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 
 #include "canvas.hpp"
 #include "path/path.hpp"
 
 namespace flowdlo::test {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 // In from the left, once around, out to the right: one crossing at the bottom of the loop.
 Curve loop() {

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 
 #include "canvas.hpp"
 #include "path/graph.hpp"
@@ -12,8 +11,6 @@
 
 namespace flowdlo::test {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 // A hairpin whose strands touch from x = 220 to x = 440; its bend, on the right, is open. One end
 // lies at x = 80. The other one stops beside it at x = 220, or parts from it to the upper left.

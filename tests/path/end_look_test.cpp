@@ -35,8 +35,8 @@ TEST(EndLook, WithoutColourNothingIsHeldAgainstAnyone) {
 }
 
 /// Two level ropes with a gap between them.
-struct Pair : test::Seen {
-  Pair() : Seen({straight_axis({40, 120}, {140, 120}), straight_axis({180, 120}, {280, 120})}) {}
+struct TwoAxes : test::Seen {
+  TwoAxes() : Seen({straight_axis({40, 120}, {140, 120}), straight_axis({180, 120}, {280, 120})}) {}
 
   LinkTerms link() const {
     Frame frame = canvas.frame();
@@ -64,7 +64,7 @@ struct Pair : test::Seen {
 };
 
 TEST(EndLook, ALinkBetweenStrandsOfOtherColoursPaysForIt) {
-  Pair pair;
+  TwoAxes pair;
   EXPECT_EQ(pair.link()[kLinkColor], 0) << "no colour";
   pair.paint(90, 90);
   EXPECT_EQ(pair.link()[kLinkColor], 0);

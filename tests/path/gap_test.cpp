@@ -1,7 +1,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 
 #include "canvas.hpp"
 #include "path/gap_curve.hpp"
@@ -9,8 +8,6 @@
 
 namespace flowdlo::test {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 Curve wave() {
   return curve_of([](double t) {

@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 #include <opencv2/imgproc.hpp>
 
 #include "canvas.hpp"
@@ -13,7 +12,6 @@
 namespace flowdlo::test {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr float kRope_m = 0.60F;
 constexpr float kTable_m = 0.65F;
 constexpr float kBar_m = 0.50F;

@@ -3,15 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 
 #include "canvas.hpp"
 #include "path/eroded.hpp"
 
 namespace flowdlo::test {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 Curve wave() {
   return curve_of([](double t) {

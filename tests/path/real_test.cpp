@@ -4,11 +4,13 @@
 
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <nlohmann/json.hpp>
-#include <opencv2/imgcodecs.hpp>
 #include <string>
+#include <vector>
 
 #include "canvas.hpp"
+#include "frame/png.hpp"
 #include "path/path.hpp"
 #include "support/source_dir.hpp"
 
@@ -17,21 +19,26 @@ namespace {
 
 namespace fs = std::filesystem;
 
+frame::PngImage image_in(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  const std::vector<std::uint8_t> bytes(std::istreambuf_iterator<char>(stream), {});
+  const auto image = frame::decode_png(bytes, file.string());
+  return image ? *image : frame::PngImage();  // the test then finds no rope
+}
+
 Canvas load(const fs::path& folder, Intrinsics& camera) {
-  const cv::Mat mask = cv::imread((folder / "mask.png").string(), cv::IMREAD_GRAYSCALE);
-  const cv::Mat depth = cv::imread((folder / "depth.png").string(), cv::IMREAD_UNCHANGED);
+  const frame::PngImage mask = image_in(folder / "mask.png");
+  const frame::PngImage depth = image_in(folder / "depth.png");
   nlohmann::json json;
   std::ifstream(folder / "camera.json") >> json;
   camera = {json["fx"], json["fy"], json["cx"], json["cy"]};
-  Canvas canvas(mask.cols, mask.rows);
-  canvas.mask = mask;
-  for (int v = 0; v < depth.rows; ++v) {
-    for (int u = 0; u < depth.cols; ++u) {
-      canvas.depth_m[static_cast<std::size_t>(v) * static_cast<std::size_t>(depth.cols) +
-                     static_cast<std::size_t>(u)] =
-          static_cast<float>(depth.at<std::uint16_t>(v, u)) * json["depth_scale"].get<float>();
-    }
-  }
+  Canvas canvas(mask.format().width, mask.format().height);
+  const auto lit = mask.values<std::uint8_t>();
+  std::copy(lit.begin(), lit.end(), canvas.mask.begin<std::uint8_t>());
+  const auto stored = depth.values<std::uint16_t>();
+  const auto scale = json["depth_scale"].get<float>();
+  std::transform(stored.begin(), stored.end(), canvas.depth_m.begin(),
+                 [scale](std::uint16_t value) { return static_cast<float>(value) * scale; });
   return canvas;
 }
 
@@ -40,7 +47,7 @@ struct Case {
   Curve order;  ///< where the rope is seen, from its left gripper to its right one
 };
 
-class RealFrame : public testing::TestWithParam<Case> {};
+class RealFrame : public ::testing::TestWithParam<Case> {};
 
 TEST_P(RealFrame, IsOnePathOverAllPiecesInTheRightOrder) {
   const fs::path folder = test::source_dir() / "../shared/data/real" / GetParam().name;
@@ -78,57 +85,57 @@ TEST_P(RealFrame, IsOnePathOverAllPiecesInTheRightOrder) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Mp2cdlo, RealFrame,
-                         testing::Values(Case{"mp2cdlo_0091",
-                                              {{487, 243},
-                                               {545, 295},
-                                               {595, 362},
-                                               {628, 450},
-                                               {618, 490},
-                                               {607, 460},
-                                               {640, 355},
-                                               {700, 240},
-                                               {765, 209}}},
-                                         Case{"mp2cdlo_0156",
-                                              {{547, 229},
-                                               {600, 272},
-                                               {658, 355},
-                                               {671, 420},
-                                               {640, 477},
-                                               {616, 430},
-                                               {632, 355},
-                                               {680, 262},
-                                               {766, 210}}},
-                                         Case{"mp2cdlo_0190",
-                                              {{554, 170},
-                                               {610, 220},
-                                               {661, 310},
-                                               {667, 375},
-                                               {615, 428},
-                                               {571, 395},
-                                               {575, 335},
-                                               {660, 238},
-                                               {738, 211}}},
-                                         Case{"mp2cdlo_0285",
-                                              {{471, 209},
-                                               {550, 260},
-                                               {627, 360},
-                                               {633, 412},
-                                               {590, 450},
-                                               {565, 432},
-                                               {570, 375},
-                                               {650, 265},
-                                               {743, 223}}},
-                                         Case{"mp2cdlo_0590",
-                                              {{490, 215},
-                                               {510, 226},
-                                               {560, 265},
-                                               {640, 350},
-                                               {645, 430},
-                                               {598, 470},
-                                               {557, 400},
-                                               {590, 315},
-                                               {650, 255},
-                                               {738, 210}}}),
+                         ::testing::Values(Case{"mp2cdlo_0091",
+                                                {{487, 243},
+                                                 {545, 295},
+                                                 {595, 362},
+                                                 {628, 450},
+                                                 {618, 490},
+                                                 {607, 460},
+                                                 {640, 355},
+                                                 {700, 240},
+                                                 {765, 209}}},
+                                           Case{"mp2cdlo_0156",
+                                                {{547, 229},
+                                                 {600, 272},
+                                                 {658, 355},
+                                                 {671, 420},
+                                                 {640, 477},
+                                                 {616, 430},
+                                                 {632, 355},
+                                                 {680, 262},
+                                                 {766, 210}}},
+                                           Case{"mp2cdlo_0190",
+                                                {{554, 170},
+                                                 {610, 220},
+                                                 {661, 310},
+                                                 {667, 375},
+                                                 {615, 428},
+                                                 {571, 395},
+                                                 {575, 335},
+                                                 {660, 238},
+                                                 {738, 211}}},
+                                           Case{"mp2cdlo_0285",
+                                                {{471, 209},
+                                                 {550, 260},
+                                                 {627, 360},
+                                                 {633, 412},
+                                                 {590, 450},
+                                                 {565, 432},
+                                                 {570, 375},
+                                                 {650, 265},
+                                                 {743, 223}}},
+                                           Case{"mp2cdlo_0590",
+                                                {{490, 215},
+                                                 {510, 226},
+                                                 {560, 265},
+                                                 {640, 350},
+                                                 {645, 430},
+                                                 {598, 470},
+                                                 {557, 400},
+                                                 {590, 315},
+                                                 {650, 255},
+                                                 {738, 210}}}),
                          [](const auto& which) { return std::string(which.param.name); });
 
 }  // namespace

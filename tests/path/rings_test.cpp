@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 
 #include "canvas.hpp"
 #include "path/graph.hpp"
@@ -13,7 +12,6 @@
 namespace flowdlo::test {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr double kRadius = 130;
 
 Vector2f on_circle(double angle) {

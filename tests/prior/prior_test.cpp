@@ -238,7 +238,7 @@ TEST(Lift, StaysFiniteForPointsAtTheEndOfTheFloatRange) {
 
 // The rope of the drawn frame has a strip without depth, 0.05 of the width long.
 TEST(Lift, LiftsADrawnRopeToWithinMillimetres) {  // Eq. (3.1)-(3.7) together
-  const testing::WaveFrame wave(640, 480);
+  const flowdlo::testing::WaveFrame wave(640, 480);
   const Frame frame = wave.frame();
   path::Path path;
   for (int u = 64; u < 576; ++u) {
@@ -258,7 +258,7 @@ TEST(Lift, LiftsADrawnRopeToWithinMillimetres) {  // Eq. (3.1)-(3.7) together
 }
 
 TEST(Lift, IsTheSameEveryTime) {
-  const testing::WaveFrame wave;
+  const flowdlo::testing::WaveFrame wave;
   const auto visible = evidence::visible_points(evidence::unproject(wave.frame()));
   const auto path = path_through({{32, 120}, {288, 120}});
   const auto first = lift(path, visible, wave.frame());

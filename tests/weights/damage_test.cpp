@@ -3,13 +3,13 @@
 
 #include "random/philox.hpp"
 #include "raw_fdw.hpp"
-#include "temporary_folder.hpp"
 #include "weights/weights.hpp"
+#include "weights_folder.hpp"
 
 namespace flowdlo::weights {
 namespace {
 
-using test::TemporaryFolder;
+using test::WeightsFolder;
 
 bool same_tensors(const Weights& a, const Weights& b) {
   return std::equal(a.tensors.begin(), a.tensors.end(), b.tensors.begin(), b.tensors.end(),
@@ -67,7 +67,7 @@ class Damage : public testing::Test {
     }
   }
 
-  TemporaryFolder folder_;
+  WeightsFolder folder_;
   std::filesystem::path file_ = folder_ / "model.fdw";
   std::string bytes_;
   Weights intact_;

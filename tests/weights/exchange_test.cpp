@@ -5,13 +5,13 @@
 
 #include "flowdlo/weights.hpp"
 #include "random/philox.hpp"
-#include "temporary_folder.hpp"
 #include "weights/weights.hpp"
+#include "weights_folder.hpp"
 
 namespace flowdlo {
 namespace {
 
-using test::TemporaryFolder;
+using test::WeightsFolder;
 using testing::AllOf;
 using testing::HasSubstr;
 using weights::StorageType;
@@ -62,7 +62,7 @@ class Exchange : public testing::Test {
     return imported.error().message;
   }
 
-  TemporaryFolder folder_;
+  WeightsFolder folder_;
   std::filesystem::path fdw_ = folder_ / "model.fdw";
   std::filesystem::path safetensors_ = folder_ / "model.safetensors";
   std::filesystem::path back_ = folder_ / "back.fdw";

@@ -1,16 +1,16 @@
 #include <gtest/gtest.h>
 
 #include "flowdlo/weights.hpp"
-#include "temporary_folder.hpp"
 #include "weights/weights.hpp"
+#include "weights_folder.hpp"
 
 namespace flowdlo {
 namespace {
 
-using test::TemporaryFolder;
+using test::WeightsFolder;
 
 TEST(InspectWeights, TellsTensorsParametersAndMetadata) {
-  const TemporaryFolder folder;
+  const WeightsFolder folder;
   ASSERT_TRUE(weights::save(weights::seeded({}, 1), folder / "model.fdw"));
   const auto info = inspect_weights(folder / "model.fdw");
   ASSERT_TRUE(info) << info.error().message;
@@ -26,7 +26,7 @@ TEST(InspectWeights, TellsTensorsParametersAndMetadata) {
 }
 
 TEST(InspectWeights, TellsF32) {
-  const TemporaryFolder folder;
+  const WeightsFolder folder;
   ASSERT_TRUE(
       weights::save(weights::seeded({}, 1), folder / "model.fdw", weights::StorageType::kF32));
   const auto info = inspect_weights(folder / "model.fdw");

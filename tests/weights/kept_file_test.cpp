@@ -2,12 +2,12 @@
 
 #include <gtest/gtest.h>
 
-#include "temporary_folder.hpp"
+#include "weights_folder.hpp"
 
 namespace flowdlo::weights {
 namespace {
 
-using test::TemporaryFolder;
+using test::WeightsFolder;
 
 void expect_equal(const Weights& got, const Weights& expected) {
   ASSERT_EQ(got.tensors.size(), expected.tensors.size());
@@ -20,7 +20,7 @@ void expect_equal(const Weights& got, const Weights& expected) {
 
 TEST(KeptFile, DecodesToWhatWasLoadedWhenTheFileIsGone) {
   for (const StorageType type : {StorageType::kF16, StorageType::kF32}) {
-    const TemporaryFolder folder;
+    const WeightsFolder folder;
     ASSERT_TRUE(save(seeded({}, 3), folder / "model.fdw", type));
     const auto loaded = load(folder / "model.fdw");
     const auto kept = load_and_keep({folder / "model.fdw", {}});
@@ -34,7 +34,7 @@ TEST(KeptFile, DecodesToWhatWasLoadedWhenTheFileIsGone) {
 }
 
 TEST(KeptFile, RefusesWhatLoadRefuses) {
-  const TemporaryFolder folder;
+  const WeightsFolder folder;
   EXPECT_FALSE(load_and_keep({folder / "none.fdw", {}}));
 }
 

@@ -2,20 +2,20 @@
 #include <sys/stat.h>
 
 #include "raw_fdw.hpp"
-#include "temporary_folder.hpp"
 #include "weights/weights.hpp"
+#include "weights_folder.hpp"
 
 namespace flowdlo::weights {
 namespace {
 
 using test::RawFdw;
-using test::TemporaryFolder;
+using test::WeightsFolder;
 using testing::AllOf;
 using testing::HasSubstr;
 
 /// The error that `raw` gives, or "" when it loads.
 std::string message_of(const RawFdw& raw) {
-  const TemporaryFolder folder;
+  const WeightsFolder folder;
   test::write_bytes(folder / "raw.fdw", raw.bytes());
   const auto loaded = load(folder / "raw.fdw");
   if (loaded) return {};
@@ -137,7 +137,7 @@ TEST(Load, RefusesTensorsThatShareOneHugeShapeAndName) {
   const auto fields = metadata.Finish();
   const auto list = builder.CreateVector(tensors);
   fdw::FinishWeightsBuffer(builder, fdw::CreateWeights(builder, fields, list));
-  const TemporaryFolder folder;
+  const WeightsFolder folder;
   test::write_bytes(folder / "shared.fdw",
                     {reinterpret_cast<const char*>(builder.GetBufferPointer()), builder.GetSize()});
   const auto loaded = load(folder / "shared.fdw");
@@ -162,7 +162,7 @@ TEST(Load, RefusesMetadataThatIsNoUtf8) {
 }
 
 TEST(Load, RefusesAnotherIdentifier) {
-  const TemporaryFolder folder;
+  const WeightsFolder folder;
   test::write_bytes(folder / "swapped.fdw", RawFdw{}.bytes("FDW2"));
   const auto loaded = load(folder / "swapped.fdw");
   ASSERT_FALSE(loaded);
@@ -178,7 +178,7 @@ TEST(Load, MissingFileIsAnIoError) {
 }
 
 TEST(Load, FolderIsAnIoError) {
-  const TemporaryFolder folder;
+  const WeightsFolder folder;
   const auto loaded = load(folder.path());
   ASSERT_FALSE(loaded);
   EXPECT_EQ(loaded.error().code, ErrorCode::kIo);
@@ -186,7 +186,7 @@ TEST(Load, FolderIsAnIoError) {
 }
 
 TEST(Load, PipeIsAnIoErrorAndNoWait) {
-  const TemporaryFolder folder;
+  const WeightsFolder folder;
   ASSERT_EQ(::mkfifo((folder / "pipe").c_str(), 0600), 0);
   const auto loaded = load(folder / "pipe");
   ASSERT_FALSE(loaded);
@@ -194,7 +194,7 @@ TEST(Load, PipeIsAnIoErrorAndNoWait) {
 }
 
 TEST(Load, FileOfManyGigabytesIsRefusedUnread) {
-  const TemporaryFolder folder;
+  const WeightsFolder folder;
   test::write_bytes(folder / "huge.fdw", "x");
   std::filesystem::resize_file(folder / "huge.fdw", std::uintmax_t{1} << 40U);  // sparse
   const auto loaded = load(folder / "huge.fdw");

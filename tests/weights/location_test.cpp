@@ -5,10 +5,10 @@
 #include <fstream>
 #include <iterator>
 
-#include "temporary_folder.hpp"
 #include "weights/embedded_files.hpp"
 #include "weights/field_weights.hpp"
 #include "weights/kept_file.hpp"
+#include "weights_folder.hpp"
 
 namespace flowdlo::weights {
 namespace {
@@ -57,7 +57,7 @@ class LocationTest : public testing::Test {
   [[nodiscard]] fs::path root() { return folder_.path() / std::to_string(++roots_); }
 
  private:
-  test::TemporaryFolder folder_;
+  test::WeightsFolder folder_;
   int roots_ = 0;
 };
 

@@ -6,13 +6,13 @@
 #include <limits>
 
 #include "raw_fdw.hpp"
-#include "temporary_folder.hpp"
 #include "weights/weights.hpp"
+#include "weights_folder.hpp"
 
 namespace flowdlo::weights {
 namespace {
 
-using test::TemporaryFolder;
+using test::WeightsFolder;
 using testing::HasSubstr;
 
 void expect_same_metadata(const Metadata& got, const Metadata& expected) {
@@ -28,7 +28,7 @@ void expect_same_metadata(const Metadata& got, const Metadata& expected) {
 }
 
 TEST(Save, F32RoundTripKeepsEveryBit) {
-  const TemporaryFolder folder;
+  const WeightsFolder folder;
   const auto weights = seeded({}, 2);
   ASSERT_TRUE(save(weights, folder / "model.fdw", StorageType::kF32));
   const auto loaded = load(folder / "model.fdw");
@@ -41,7 +41,7 @@ TEST(Save, F32RoundTripKeepsEveryBit) {
 }
 
 TEST(Save, F16RoundTripRoundsToNearest) {
-  const TemporaryFolder folder;
+  const WeightsFolder folder;
   const auto weights = seeded({}, 2);
   ASSERT_TRUE(save(weights, folder / "model.fdw"));
   const auto loaded = load(folder / "model.fdw");
@@ -55,7 +55,7 @@ TEST(Save, F16RoundTripRoundsToNearest) {
 }
 
 TEST(Save, EveryVariantAndFieldOfMetadataRoundTrips) {
-  const TemporaryFolder folder;
+  const WeightsFolder folder;
   const std::array variants{
       Variant{.parameterization = ops::Parameterization::kDirect, .local_channels = 8},
       Variant{.parameterization = ops::Parameterization::kPreconditioned,
@@ -81,7 +81,7 @@ TEST(Save, EveryVariantAndFieldOfMetadataRoundTrips) {
 }
 
 TEST(Save, AlignsEveryTensorTo64Bytes) {
-  const TemporaryFolder folder;
+  const WeightsFolder folder;
   ASSERT_TRUE(save(seeded({}, 2), folder / "model.fdw"));
   const auto bytes = test::bytes_of(folder / "model.fdw");
   const auto* begin = reinterpret_cast<const std::uint8_t*>(bytes.data());
@@ -91,20 +91,20 @@ TEST(Save, AlignsEveryTensorTo64Bytes) {
 }
 
 TEST(Save, SameWeightsGiveTheSameBytes) {
-  const TemporaryFolder folder;
+  const WeightsFolder folder;
   ASSERT_TRUE(save(seeded({}, 2), folder / "first.fdw"));
   ASSERT_TRUE(save(seeded({}, 2), folder / "second.fdw"));
   EXPECT_EQ(test::bytes_of(folder / "first.fdw"), test::bytes_of(folder / "second.fdw"));
 }
 
 TEST(Save, LeavesNothingButTheFile) {
-  const TemporaryFolder folder;
+  const WeightsFolder folder;
   ASSERT_TRUE(save(seeded({}, 2), folder / "model.fdw"));
   EXPECT_EQ(folder.entries(), 1);
 }
 
 TEST(Save, ValueBeyondF16NamesTheTensorAndWritesNothing) {
-  const TemporaryFolder folder;
+  const WeightsFolder folder;
   auto weights = seeded({}, 2);
   weights.tensors[3].values[7] = 65520.0F;
   weights.tensors[4].values[0] = -1e9F;
@@ -118,7 +118,7 @@ TEST(Save, ValueBeyondF16NamesTheTensorAndWritesNothing) {
 }
 
 TEST(Save, FaultyWeightsWriteNothing) {
-  const TemporaryFolder folder;
+  const WeightsFolder folder;
   auto weights = seeded({}, 2);
   weights.metadata.scale = std::numeric_limits<float>::infinity();
   weights.tensors[3].values[7] = std::nanf("");
@@ -130,7 +130,7 @@ TEST(Save, FaultyWeightsWriteNothing) {
 }
 
 TEST(Save, MissingFolderIsAnIoError) {
-  const TemporaryFolder folder;
+  const WeightsFolder folder;
   const auto saved = save(seeded({}, 2), folder / "none" / "model.fdw");
   ASSERT_FALSE(saved);
   EXPECT_EQ(saved.error().code, ErrorCode::kIo);
@@ -138,7 +138,7 @@ TEST(Save, MissingFolderIsAnIoError) {
 }
 
 TEST(Save, FolderInThePlaceOfTheFileLeavesNoTemporary) {
-  const TemporaryFolder folder;
+  const WeightsFolder folder;
   std::filesystem::create_directories(folder / "model.fdw" / "content");
   const auto saved = save(seeded({}, 2), folder / "model.fdw");
   ASSERT_FALSE(saved);
@@ -147,7 +147,7 @@ TEST(Save, FolderInThePlaceOfTheFileLeavesNoTemporary) {
 }
 
 TEST(Save, FullDiskLeavesTheOldFileAndNoTemporary) {
-  const TemporaryFolder folder;
+  const WeightsFolder folder;
   test::write_bytes(folder / "model.fdw", "old");
   rlimit before{};
   ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &before), 0);
@@ -164,7 +164,7 @@ TEST(Save, FullDiskLeavesTheOldFileAndNoTemporary) {
 }
 
 TEST(Save, ReplacesAnOlderFile) {
-  const TemporaryFolder folder;
+  const WeightsFolder folder;
   test::write_bytes(folder / "model.fdw", "old");
   ASSERT_TRUE(save(seeded({}, 2), folder / "model.fdw"));
   EXPECT_TRUE(load(folder / "model.fdw"));
