@@ -42,7 +42,7 @@ const char* words(Origin prior) {
     case Origin::kRunnerUp:
       return "the prior of a runner-up, another way through the mask,";
     case Origin::kOtherReading:
-      return "a prior that another reading of the mask found";
+      return "a prior that another reading of the frame found";
     case Origin::kFrameBefore:
       return "the rope as it was in the frame before";
     default:

@@ -70,10 +70,10 @@ struct Config {
   int threads = 0;           ///< of the CPU back end; 0: one for each core
 
   /// Milliseconds that an estimate may take; 0: as long as it does. Of the model, the strand field
-  /// and further readings, what would end too late is left out, going by what earlier frames took;
-  /// Estimate::left_out says what. Where the strand field is, the mask is read, whatever is left: it
-  /// takes 5 to 30 ms, on masks that are no rope up to a second. With a limit an estimate depends
-  /// on how busy the machine is.
+  /// and the reading of the eroded mask, what would end too late is left out, going by what earlier
+  /// frames took; Estimate::left_out says what. Where the strand field leaves doubt or is left out,
+  /// the mask is read whatever time is left: it takes 5 to 30 ms, on masks that are no rope up to a
+  /// second. With a limit an estimate depends on how busy the machine is.
   double budget_ms = 0;
 
   /// Largest frame for which memory is set aside. A larger one still works: its first call

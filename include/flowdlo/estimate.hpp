@@ -22,9 +22,10 @@ enum class Source { kPrediction, kPrior };
 
 /// Which of all candidates the nodes are.
 enum class Origin {
-  kFirstPrior,    ///< the prior of the way through the mask that explains the frame best
-  kRunnerUp,      ///< the prior of another way through the mask as given
-  kOtherReading,  ///< the prior of a way that only a further reading of the mask found
+  kFirstPrior,    ///< the best prior of the reading that counts: of the strand field where that is
+                  ///< sure, otherwise of the mask
+  kRunnerUp,      ///< another prior of that reading
+  kOtherReading,  ///< the prior of a way that only a further reading found
   kFrameBefore,   ///< Hints::previous: the rope lies where it lay
   kDraw,          ///< a draw of the model
 };
@@ -105,7 +106,7 @@ struct OneRope {
 enum class LeftOut {
   kModel,     ///< its draws: the estimate is a prior
   kField,     ///< the strand field
-  kReadings,  ///< the mask beside the strand field, or the eroded mask
+  kReadings,  ///< the eroded mask
 };
 
 /// "model", "strand_field" or "readings".

@@ -140,15 +140,11 @@ using Measured = Result<std::optional<lab::GateSample>>;
 Measured measured_one(const Options& options, const Batch& batch, Model& model, Networks& networks,
                       int number) {
   const std::uint64_t index = batch.origin.first + static_cast<std::uint64_t>(number);
-  auto scene = scene_of(batch.origin, index, false);
+  // Colours take longest, and nothing but the strand field asks for them.
+  const auto scene = scene_of(batch.origin, index, networks.field.has_value());
   if (!scene) return scene.error();
   const auto kind = model.weights->metadata.variant.prior_kind;
   const double length_m = known_length_m(batch.origin, index, scene->meta.length_m);
-  // Colours take longest, and nothing but the strand field asks for them.
-  if (networks.field && lab::is_reread(*scene, kind, length_m)) {
-    scene = scene_of(batch.origin, index, true);
-    if (!scene) return scene.error();
-  }
   return lab::measure(*scene, model.sampler ? &*model.sampler : nullptr,
                       networks.field ? &*networks.field : nullptr,
                       networks.refine ? &*networks.refine : nullptr, options.draws, kind, length_m);

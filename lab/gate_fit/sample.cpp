@@ -46,13 +46,6 @@ std::optional<Drawn> draw(const Frame& frame, const estimator::Conditions& condi
 
 }  // namespace
 
-bool is_reread(const synth::SyntheticFrame& scene, weights::PriorKind kind, double rope_length_m) {
-  const Frame frame = scene.frame();
-  Timings timings;
-  const auto conditions = estimator::gather(frame, {kind, rope_length_m}, timings);
-  return conditions && estimator::worth_rereading(*conditions, frame);
-}
-
 std::optional<GateSample> measure(const synth::SyntheticFrame& scene, flow::Sampler* sampler,
                                   field::Network* field, refine::Network* refine, int draws,
                                   weights::PriorKind kind, double rope_length_m) {

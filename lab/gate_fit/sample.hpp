@@ -32,10 +32,6 @@ struct GateSample {
   }
 };
 
-/// Whether the frame is read again, through the strand field too.
-[[nodiscard]] bool is_reread(const synth::SyntheticFrame& scene, weights::PriorKind kind,
-                             double rope_length_m);
-
 /// Nothing where the engine finds no path or the device fails. Priors alone where `sampler` is
 /// null, without a strand field where `field` is, nodes unrefined where `refine` is.
 /// `rope_length_m` 0: unknown.

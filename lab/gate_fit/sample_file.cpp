@@ -13,7 +13,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr int kFormat = 6;  // rises with what a sample holds
+constexpr int kFormat = 7;  // rises with what a sample holds
 
 /// Calls `field` with the name and value of each number of a candidate.
 template <class Candidate, class Field>

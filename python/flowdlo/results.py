@@ -91,7 +91,7 @@ class Estimate:
         where `calibrated` is False, that they visit the rope in order.
     source: "prediction" of the model, or "prior", which is no failure.
     origin: which of all candidates: "first_prior", "runner_up" (another way through the mask),
-        "other_reading" (found by a further reading of the mask), "frame_before" (a stream's rope
+        "other_reading" (found by a further reading), "frame_before" (a stream's rope
         that lies where it lay) or "draw".
     draw: index of the returned draw; None where the prior was returned.
     calibrated: whether the calibrated gate decided, not that of the thesis.
