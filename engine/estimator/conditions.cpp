@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "estimator/stopwatch.hpp"
+#include "gate/one_rope.hpp"
 #include "path/strand_reading.hpp"
 
 namespace flowdlo::estimator {
@@ -33,8 +34,9 @@ Result<bool> read_seen(const Frame& frame, const ReadConfig& config, const SeeAx
   const auto glance = path::glance(frame);
   if (!glance) return glance.error();
   conditions.cleaned = glance->cleaned;
-  // Of noise a field shows noise, and the longer the more there is of it.
-  auto axes = glance->filtered ? std::nullopt : see(glance->rope_width_px);
+  // Of noise a field shows noise, and the longer the more there is of it; of a disc nothing.
+  const bool worth = !glance->filtered && glance->slender >= gate::OneRopeLimits{}.slender;
+  auto axes = worth ? see(glance->rope_width_px) : std::nullopt;
   stage.lap(timings.field_ms);
   if (!axes) return false;
   auto paths = path::trace_strands(frame, *axes, config.trace(conditions.cleaned));

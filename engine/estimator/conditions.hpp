@@ -43,9 +43,9 @@ struct Conditions {
 
 /// The first reading runs along `traced` where these paths are known already (else null), otherwise
 /// along the axes that `see` shows, otherwise along the mask alone: where `see` is null or shows
-/// nothing, of noise, and where no hypothesis can be made of the axes. Fills evidence_ms, field_ms,
-/// path_ms and prior_ms of `timings`. Expects a valid frame. Fails with kNoEvidence, or as
-/// path::glance, path::trace and lift_all do of the mask.
+/// nothing, of noise, of what is too short for its width, and where no hypothesis can be made of
+/// the axes. Fills evidence_ms, field_ms, path_ms and prior_ms of `timings`. Expects a valid frame.
+/// Fails with kNoEvidence, or as path::glance, path::trace and lift_all do of the mask.
 [[nodiscard]] Result<Conditions> gather(const Frame& frame, const ReadConfig& config,
                                         Timings& timings, const path::Traversals* traced = nullptr,
                                         const SeeAxes& see = {});

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "guard/guarded.hpp"
+#include "image/masks.hpp"
 #include "path/cover.hpp"
 #include "path/doubles.hpp"
 #include "path/graph.hpp"
@@ -160,6 +161,11 @@ Result<Answer> trace_mask(const Frame& frame, const Region* cleaned, int ropes,
   });
 }
 
+// Length of what the region shows, in widths.
+float slender(const Region& region) {
+  return static_cast<float>(image::count_set(region.mask)) / (region.width_px * region.width_px);
+}
+
 }  // namespace
 
 Result<Glance> glance(const Frame& frame) {
@@ -170,11 +176,11 @@ Result<Glance> glance(const Frame& frame) {
       const Reduced copy(frame, box, times);
       const auto region = clean(copy.frame());
       if (!region) return region.error();
-      return Glance{region->width_px / copy.scale(), region->filtered, nullptr};
+      return Glance{region->width_px / copy.scale(), slender(*region), region->filtered, nullptr};
     }
     auto region = clean(frame);
     if (!region) return region.error();
-    Glance result{region->width_px, region->filtered, nullptr};
+    Glance result{region->width_px, slender(*region), region->filtered, nullptr};
     result.cleaned = std::make_shared<const Region>(*std::move(region));
     return result;
   });

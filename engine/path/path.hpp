@@ -66,6 +66,7 @@ inline constexpr float kMostLead = 6;
 /// What a mask tells before its strands are told apart.
 struct Glance {
   float rope_width_px = 0;  ///< of the strokes
+  float slender = 0;        ///< length of all strokes, in widths
   bool filtered = false;    ///< as Traversals::filtered
   /// The frame's mask as every reading of it begins, for those that are to share it; null where the
   /// mask is too large to be read as it is.

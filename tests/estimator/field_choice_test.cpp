@@ -8,6 +8,7 @@
 
 #include "../frame/temporary_folder.hpp"
 #include "flowdlo/estimator.hpp"
+#include "support/ring_frame.hpp"
 #include "support/wave_frame.hpp"
 #include "weights/field_weights.hpp"
 #include "weights/location.hpp"
@@ -72,6 +73,28 @@ TEST(FieldChoice, AClearFrameIsReadOnceWithItAndHasTheSameNodesWithoutIt) {
     EXPECT_NEAR(a->nodes[i].x, b->nodes[i].x, kHalfWidth_m);
     EXPECT_NEAR(a->nodes[i].z, b->nodes[i].z, 0.001F);
   }
+}
+
+TEST(FieldChoice, WithQualityFastTheModelIsAskedWhereThereIsDoubtAlone) {
+  const testing::WaveFrame clear;
+  const testing::RingFrame doubtful;
+  Config config = small(FLOWDLO_DEFAULT_WEIGHTS);
+  auto full = Estimator::create(config);
+  config.quality = Quality::kFast;
+  auto fast = Estimator::create(config);
+  ASSERT_TRUE(full && fast);
+  const auto sure = fast->estimate(clear.frame());
+  const auto unsure = fast->estimate(doubtful.frame());
+  const auto both = full->estimate(clear.frame());
+  ASSERT_TRUE(sure && unsure && both);
+  EXPECT_TRUE(sure->draws.empty());
+  EXPECT_TRUE(sure->left_out.empty()) << "it was not left out for want of time";
+  EXPECT_EQ(sure->timings.model_ms, 0);
+  EXPECT_GE(sure->confidence, 0.95F);
+  EXPECT_FALSE(unsure->draws.empty());
+  EXPECT_GT(unsure->readings, 1);
+  EXPECT_FALSE(both->draws.empty());
+  EXPECT_EQ(sure->nodes, both->nodes) << "whether draws are made changes nothing else";
 }
 
 TEST(FieldChoice, TheNetworkThatRefinesMovesNodesByMillimetresAndChoosesAsBefore) {

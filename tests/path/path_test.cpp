@@ -209,6 +209,7 @@ TEST(Path, ReadingsOfOneFrameMayShareTheCleanedMask) {
 
   ASSERT_TRUE(seen && seen->cleaned);
   EXPECT_FALSE(seen->filtered);
+  EXPECT_GT(seen->slender, 10);
   EXPECT_NEAR(seen->rope_width_px, 12, 2);
   for (int time = 0; time < 2; ++time) {  // a reading leaves what it shares as it was
     const auto traced = path::trace(frame, {.cleaned = seen->cleaned});

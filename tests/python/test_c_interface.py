@@ -62,7 +62,7 @@ class Estimate(ctypes.Structure):
         ("doubts", ctypes.c_uint32),
         *((name, ctypes.c_int32) for name in ("alternatives", "accepted_draws")),
         ("one_rope", ctypes.c_float * 8),
-        ("milliseconds", ctypes.c_double * 8),
+        ("milliseconds", ctypes.c_double * 9),
         ("left_out", ctypes.c_uint32),
         ("closed", ctypes.c_int32),
         ("origin", ctypes.c_int32),
