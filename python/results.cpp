@@ -44,10 +44,11 @@ py::dict dict_of(const Timings& timings) {
   py::list device;
   for (const auto& [part, ms] : timings.device_ms) device.append(py::make_tuple(text(part), ms));
   return py::dict("evidence_ms"_a = timings.evidence_ms, "field_ms"_a = timings.field_ms,
-                  "path_ms"_a = timings.path_ms, "prior_ms"_a = timings.prior_ms, "readings_ms"_a = timings.readings_ms,
-                  "beside_ms"_a = timings.beside_ms, "mask_field_ms"_a = timings.mask_field_ms,
-                  "model_ms"_a = timings.model_ms, "gate_ms"_a = timings.gate_ms,
-                  "total_ms"_a = timings.total_ms, "device_ms"_a = py::tuple(device));
+                  "path_ms"_a = timings.path_ms, "prior_ms"_a = timings.prior_ms,
+                  "readings_ms"_a = timings.readings_ms, "beside_ms"_a = timings.beside_ms,
+                  "mask_field_ms"_a = timings.mask_field_ms, "model_ms"_a = timings.model_ms,
+                  "gate_ms"_a = timings.gate_ms, "total_ms"_a = timings.total_ms,
+                  "device_ms"_a = py::tuple(device));
 }
 
 }  // namespace

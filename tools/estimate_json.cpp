@@ -104,16 +104,12 @@ Json one_rope_json(const OneRope& one) {
 }
 
 Json timings_json(const Timings& timings) {
-  return {{"evidence", number(timings.evidence_ms)},
-          {"field", number(timings.field_ms)},
-          {"path", number(timings.path_ms)},
-          {"prior", number(timings.prior_ms)},
-          {"readings", number(timings.readings_ms)},
-          {"mask_field", number(timings.mask_field_ms)},
-          {"model", number(timings.model_ms)},
-          {"gate", number(timings.gate_ms)},
-          {"total", number(timings.total_ms)},
-          {"readings_beside", number(timings.beside_ms)}};
+  return {
+      {"evidence", number(timings.evidence_ms)}, {"field", number(timings.field_ms)},
+      {"path", number(timings.path_ms)},         {"prior", number(timings.prior_ms)},
+      {"readings", number(timings.readings_ms)}, {"mask_field", number(timings.mask_field_ms)},
+      {"model", number(timings.model_ms)},       {"gate", number(timings.gate_ms)},
+      {"total", number(timings.total_ms)},       {"readings_beside", number(timings.beside_ms)}};
 }
 
 Json device_timings_json(const Timings& timings) {

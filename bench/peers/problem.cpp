@@ -97,8 +97,7 @@ Result<Problem> make_problem(const std::filesystem::path& weights,
   const Frame frame = folder->frame();
   const auto& variant = loaded->metadata.variant;
   Timings timings;
-  const auto conditions =
-      estimator::gather(frame, {.prior_kind = variant.prior_kind}, timings);
+  const auto conditions = estimator::gather(frame, {.prior_kind = variant.prior_kind}, timings);
   if (!conditions) return conditions.error();
   const auto field = evidence::mask_field(frame);
 

@@ -144,8 +144,7 @@ std::optional<field::Axes> Estimator::Impl::axes(const Frame& frame, float rope_
     reading_costs.of_field.left_out();
     return std::nullopt;
   }
-  const auto seen = field::see(frame, rope_width_px, *networks.field, near_parts, &pool);
-  return seen ? std::optional(field::axes(*seen)) : std::nullopt;
+  return estimator::seen_by(&*networks.field, frame, near_parts, &pool)(rope_width_px);
 }
 
 /// [draws] the hypothesis that conditions each.

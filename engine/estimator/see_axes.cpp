@@ -1,13 +1,16 @@
 #include "estimator/see_axes.hpp"
 
+#include <new>
+
 #include "field/strand_field.hpp"
 
 namespace flowdlo::estimator {
 
-SeeAxes seen_by(field::Network* network, const Frame& frame, bool near_parts) {
+SeeAxes seen_by(field::Network* network, const Frame& frame, bool near_parts, threads::Pool* pool) {
   if (network == nullptr) return {};
-  return [network, &frame, near_parts](float rope_width_px) -> std::optional<field::Axes> {
-    const auto seen = field::see(frame, rope_width_px, *network, near_parts);
+  return [network, &frame, near_parts, pool](float rope_width_px) -> std::optional<field::Axes> {
+    const auto seen = field::see(frame, rope_width_px, *network, near_parts, pool);
+    if (!seen && seen.error().code == ErrorCode::kOutOfMemory) throw std::bad_alloc();
     return seen ? std::optional(field::axes(*seen)) : std::nullopt;
   };
 }

@@ -7,6 +7,7 @@
 #include "field/axes.hpp"
 #include "field/network.hpp"
 #include "flowdlo/frame.hpp"
+#include "threads/pool.hpp"
 
 namespace flowdlo::estimator {
 
@@ -15,7 +16,9 @@ namespace flowdlo::estimator {
 using SeeAxes = std::function<std::optional<field::Axes>(float rope_width_px)>;
 
 /// What `network` sees of `frame`, both of which have to outlive it; null where there is none.
-/// `near_parts` as field::see's.
-[[nodiscard]] SeeAxes seen_by(field::Network* network, const Frame& frame, bool near_parts = false);
+/// `near_parts` and `pool` as field::see's. A call that finds no memory throws std::bad_alloc: the
+/// estimate without a field would be another one.
+[[nodiscard]] SeeAxes seen_by(field::Network* network, const Frame& frame, bool near_parts = false,
+                              threads::Pool* pool = nullptr);
 
 }  // namespace flowdlo::estimator

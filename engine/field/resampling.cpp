@@ -3,35 +3,19 @@
 #include <algorithm>
 #include <cmath>
 
+#include "image/between.hpp"
+
 namespace flowdlo::field {
 namespace {
 
 using Kind = Taps::Kind;
-
-/// The first of two neighbours, and the share of the second.
-struct Between {
-  int first = 0;
-  float share = 0;
-};
-
-Between centre_of(int at, double scale) {
-  const auto place = static_cast<float>((at + 0.5) * scale - 0.5);
-  const auto first = static_cast<int>(std::floor(place));
-  return {first, place - static_cast<float>(first)};
-}
-
-Between cover_of(int at, double scale, double inverse) {
-  const auto first = static_cast<int>(std::floor(at * scale));
-  const auto share = static_cast<float>((at + 1) - (first + 1) * inverse);
-  return {first, share <= 0 ? 0.0F : share - std::floor(share)};
-}
 
 using List = std::vector<Taps::Tap>;
 
 void add_between(int given, int at, double inverse, Kind kind, List& taps) {
   const double scale = 1 / inverse;
   const auto [first, share] =
-      kind == Kind::kCovers ? cover_of(at, scale, inverse) : centre_of(at, scale);
+      kind == Kind::kCovers ? image::cover_of(at, scale, inverse) : image::centre_of(at, scale);
   if (first < 0 || first >= given - 1 || share == 0) {
     taps.push_back({std::clamp(first, 0, given - 1), 1});
     return;

@@ -4,6 +4,8 @@
 #include <limits>
 #include <vector>
 
+#include "image/between.hpp"
+
 namespace flowdlo::image {
 namespace {
 
@@ -36,25 +38,6 @@ std::uint8_t stored(float value, std::uint8_t /*as*/) {
 /// Pixels of the given size for each of the wanted one.
 double scale_of(int given, int wanted) {
   return 1 / (static_cast<double>(wanted) / static_cast<double>(given));
-}
-
-/// Two neighbours, and the share of the second.
-struct Between {
-  int first = 0;
-  float share = 0;
-};
-
-Between centre_of(int at, double scale) {
-  const auto place = static_cast<float>((at + 0.5) * scale - 0.5);
-  const auto first = static_cast<int>(std::floor(place));
-  return {first, place - static_cast<float>(first)};
-}
-
-// Where one side grows: a pixel keeps its value as long as it covers a whole one.
-Between cover_of(int at, double scale, double inverse) {
-  const auto first = static_cast<int>(std::floor(at * scale));
-  const auto share = static_cast<float>((at + 1) - (first + 1) * inverse);
-  return {first, share <= 0 ? 0.0F : share - std::floor(share)};
 }
 
 std::vector<Between> places(int given, int wanted, bool covers) {

@@ -61,8 +61,7 @@ Result<Ropes> by_priors(const Frame& frame, const RopesRun& run, RopesOutcome& o
     const estimator::RopeView view(*parted, i, frame);
     Timings timings;
     const path::Traversals traced = view.traversals();
-    const auto conditions =
-        estimator::gather(view.frame(), {}, timings, &traced);
+    const auto conditions = estimator::gather(view.frame(), {}, timings, &traced);
     if (!conditions) return conditions.error();
     Estimate rope;
     rope.nodes = conditions->hypotheses.front().prior.nodes;

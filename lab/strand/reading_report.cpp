@@ -128,8 +128,7 @@ flowdlo::Result<Outcome> measure(const Options& options, std::uint64_t index,
   outcome.scenario = scene->meta.scenario;
   flowdlo::Timings timings;
   auto begin = std::chrono::steady_clock::now();
-  const auto conditions =
-      estimator::gather(frame, {}, timings);
+  const auto conditions = estimator::gather(frame, {}, timings);
   if (!conditions) return conditions.error();
   outcome.mask_ms = ms_since(begin);
   const auto& of_mask = conditions->hypotheses;

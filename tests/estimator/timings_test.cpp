@@ -29,8 +29,8 @@ Timings timings_of(int threads) {
 
 /// All but the further readings.
 double others_ms(const Timings& timings) {
-  return timings.evidence_ms + timings.field_ms + timings.path_ms + timings.prior_ms + timings.mask_field_ms +
-         timings.model_ms + timings.gate_ms;
+  return timings.evidence_ms + timings.field_ms + timings.path_ms + timings.prior_ms +
+         timings.mask_field_ms + timings.model_ms + timings.gate_ms;
 }
 
 TEST(Timings, OfOneThreadSumToTheTotal) {
