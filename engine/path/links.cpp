@@ -15,7 +15,7 @@ constexpr std::size_t kMostEnds = 96;
 constexpr float kKnownWidths = 3.0F;  // strands shorter than this are stumps
 constexpr float kMostEnergy = 16.0F;  // or what leaving out a longer strand costs
 
-struct Pair {
+struct Nearness {
   int from = 0;
   int to = 0;
   float least = 0;  // what a link between them costs at least,
@@ -76,7 +76,7 @@ std::vector<std::vector<Bond>> make_links(const Strands& strands, const Region& 
   const LinkTerms& weights = several ? kSeveralRopesLinks : kOneRopeLinks;
   const Cover cover(region, frame, strands.width_px, strands.seen);
   const std::vector<int> ends = open_ends(strands);
-  std::vector<Pair> pairs;
+  std::vector<Nearness> pairs;
   for (std::size_t i = 0; i < ends.size(); ++i) {
     for (std::size_t j = i + 1; j < ends.size(); ++j) {
       if (ends[i] / 2 == ends[j] / 2 && !several) continue;
@@ -91,7 +91,7 @@ std::vector<std::vector<Bond>> make_links(const Strands& strands, const Region& 
   }
   // The short ones first: most others then cost more than what is kept.
   std::stable_sort(pairs.begin(), pairs.end(),
-                   [](const Pair& a, const Pair& b) { return a.least < b.least; });
+                   [](const Nearness& a, const Nearness& b) { return a.least < b.least; });
   std::vector<std::vector<Bond>> links(2 * strands.list.size());
   const auto cheaper = [](const Bond& a, const Bond& b) {
     return a.cost != b.cost ? a.cost < b.cost : a.to < b.to;
@@ -100,7 +100,7 @@ std::vector<std::vector<Bond>> make_links(const Strands& strands, const Region& 
     return links[end].size() < kLinksAnEnd ? std::numeric_limits<float>::max()
                                            : links[end].back().cost;
   };
-  for (const Pair& pair : pairs) {
+  for (const Nearness& pair : pairs) {
     const float most = std::min(pair.most, std::max(kept(pair.from), kept(pair.to)));
     if (pair.least >= most) continue;
     const Link link = link_between(pair.from, pair.to, strands, cover, weights, most,
