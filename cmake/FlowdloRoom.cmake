@@ -11,6 +11,12 @@ endif()
 add_library(flowdlo_options INTERFACE)
 target_compile_features(flowdlo_options INTERFACE cxx_std_20)
 target_compile_options(flowdlo_options INTERFACE ${FLOWDLO_WARNINGS})
+if(FLOWDLO_UNITY AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+  # A compiler of several files at a time frees its memory once a GiB, not once some MiB: a tenth of its
+  # time. And a helper may be named as one of a file before it: whoever compiles files alone is warned.
+  target_compile_options(flowdlo_options INTERFACE --param=ggc-min-heapsize=1048576 -Wno-shadow
+                                                   -Wno-subobject-linkage)
+endif()
 if(FLOWDLO_SANITIZE)
   target_compile_options(flowdlo_options INTERFACE -fsanitize=${FLOWDLO_SANITIZE}
                                                    -fno-omit-frame-pointer -fno-sanitize-recover=all)
@@ -27,6 +33,13 @@ if(FLOWDLO_FUZZ)
     $<$<NOT:$<BOOL:$<TARGET_PROPERTY:FLOWDLO_PARSES>>>:-fno-sanitize-coverage=trace-cmp>
     $<$<BOOL:$<TARGET_PROPERTY:FLOWDLO_ARITHMETIC>>:-fno-sanitize=all>)
 endif()
+
+# Code that takes milliseconds whatever the compiler makes of it: tests, commands, options and tables.
+# Half of its compilation was its optimisation.
+add_library(flowdlo_glue_options INTERFACE)
+target_compile_options(flowdlo_glue_options INTERFACE
+  $<$<CONFIG:Release>:$<IF:$<BOOL:${FLOWDLO_UNITY}>,-O0,-O1>>
+  $<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>)  # the latter for ccache
 
 # flowdlo_precompiled(TARGET HEADER ...): a target of no code whose headers are read once for all that
 # are built with the same flags.
