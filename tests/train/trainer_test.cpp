@@ -24,7 +24,7 @@ Recipe small_recipe() {
   auto recipe = read_recipe(test::source_dir() / "lab/train/recipes/smoke.json");
   if (!recipe) throw std::runtime_error(recipe.error().message);
   recipe->optimizer.batch = 4;
-  recipe->optimizer.steps = 150;
+  recipe->optimizer.steps = 60;
   recipe->schedule = {.validate_every = 1000, .checkpoint_every = 1000, .euler_steps = 2};
   return *recipe;
 }
