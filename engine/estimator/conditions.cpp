@@ -19,7 +19,8 @@ Error no_evidence() {
 /// Paths and hypotheses of `conditions`, where the paths have any.
 Result<void> lift(path::Traversals paths, const Frame& frame, const ReadConfig& config,
                   Conditions& conditions) {
-  auto hypotheses = lift_all(paths, conditions.cloud, conditions.visible, frame, config.prior_kind);
+  auto hypotheses =
+      lift_all(paths, conditions.cloud, conditions.visible, frame, config.prior_kind, config.pool);
   if (!hypotheses) return hypotheses.error();
   conditions.paths = std::move(paths);
   conditions.hypotheses = *std::move(hypotheses);

@@ -22,6 +22,7 @@ struct ReadConfig {
   weights::PriorKind prior_kind = weights::PriorKind::kRefined;
   double rope_length_m = 0;             ///< 0: unknown
   std::vector<Eigen::Vector2f> ends{};  ///< as path::TraceConfig's
+  threads::Pool* pool = nullptr;        ///< as lift_all's
 
   /// `cleaned` as path::Glance has it; null: not known.
   [[nodiscard]] path::TraceConfig trace(

@@ -196,7 +196,7 @@ Result<Estimate> Estimator::Impl::estimate(const Frame& frame, const Hints& hint
   if (auto valid = estimator::check(hints, frame); !valid) return valid.error();
   const estimator::ReadConfig reading{estimator::prior_kind(config, metadata),
                                       hints.rope_length_m.value_or(config.rope_length_m),
-                                      estimator::end_directions(hints, frame.intrinsics)};
+                                      estimator::end_directions(hints, frame.intrinsics), &pool};
   Timings timings;
   estimator::Stopwatch total;
   bool no_time_for_field = false;

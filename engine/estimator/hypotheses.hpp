@@ -11,6 +11,7 @@
 #include "flowdlo/result.hpp"
 #include "path/path.hpp"
 #include "prior/prior.hpp"
+#include "threads/pool.hpp"
 #include "weights/variant.hpp"
 
 namespace flowdlo::estimator {
@@ -22,6 +23,7 @@ struct Hypothesis {
   double path_score = 0;  ///< path::Path::score
   double score = 0;       ///< after comparing with mask and depth, `rescored`
   Evidence evidence;      ///< of the refined prior, whatever kind `prior` is
+  float drawn_px = 0;     ///< the rope's width in evidence.tube where that is of `prior`; else 0
   int reading = 0;        ///< of the mask that brought it forth; 0: as given
   float votes = 0;        ///< [0, 1] share of the readings whose best runs here
   float odds = 0;         ///< [0, 1] mean over the readings of how likely each says it is
@@ -31,11 +33,13 @@ struct Hypothesis {
 /// Best `score` first, ties in the order of `paths`; never empty. Fails as the lift of the best
 /// traversal does; runners-up that cannot be lifted are left out, and so are those whose path
 /// score is so low (kReach, kSlack) that no comparison would bring them near the front, and those
-/// beyond the second that would make all of them longer than kMostLiftedSides.
+/// beyond the second that would make all of them longer than kMostLiftedSides. `pool`: whose
+/// threads lift beside the caller's; null: none. The hypotheses are the same.
 [[nodiscard]] Result<std::vector<Hypothesis>> lift_all(const path::Traversals& paths,
                                                        const evidence::Cloud& cloud,
                                                        const evidence::VisiblePoints& visible,
-                                                       const Frame& frame, weights::PriorKind kind);
+                                                       const Frame& frame, weights::PriorKind kind,
+                                                       threads::Pool* pool = nullptr);
 
 /// How far the first hypothesis leads the second, in units of path::Path::score; `kReach` when it
 /// is alone.

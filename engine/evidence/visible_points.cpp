@@ -3,10 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <vector>
 
 #include "geometry/camera.hpp"
+#include "geometry/mask_box.hpp"
 #include "reference/farthest_points.hpp"
 
 namespace flowdlo::evidence {
@@ -18,13 +18,6 @@ constexpr std::uint8_t kMaskThreshold = 127;  // 0.5 of an 8-bit mask
 /// Points of a cloud at most: a frame of 1920 x 1080 pixels all of which are mask. Beyond it there
 /// are more than enough, and sampling them would take time and memory without bound.
 constexpr std::size_t kMostPoints = std::size_t{1} << 21;
-
-/// True when none of the eight values from `mask` on is above kMaskThreshold, the top bit's weight.
-bool eight_unmasked(const std::uint8_t* mask) {
-  std::uint64_t word = 0;
-  std::memcpy(&word, mask, sizeof word);
-  return (word & 0x8080808080808080U) == 0;
-}
 
 bool is_finite(const Point3& point) {
   return std::isfinite(point.x) && std::isfinite(point.y) && std::isfinite(point.z);
@@ -43,9 +36,8 @@ std::size_t pixels_a_point(const Frame& frame) {
 void append_row(const Frame& frame, int v, std::size_t each, std::size_t& passed, Cloud& cloud) {
   const int first = v * frame.width;
   const std::uint8_t* const mask = frame.mask.data() + first;
-  for (int u = 0; u < frame.width; ++u) {
-    while (u + 8 <= frame.width && eight_unmasked(mask + u)) u += 8;
-    if (u >= frame.width || mask[u] <= kMaskThreshold) continue;
+  for (int u = geometry::first_masked(mask, 0, frame.width); u < frame.width;
+       u = geometry::first_masked(mask, u + 1, frame.width)) {
     if (each > 1 && passed++ % each != 0) continue;
     const float depth_m = frame.depth_m[static_cast<std::size_t>(first + u)];
     if (!std::isfinite(depth_m) || depth_m <= kMinDepth_m) continue;

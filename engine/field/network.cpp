@@ -72,7 +72,7 @@ void put(const float* places, std::array<float, kChannels>* output) {
   }
 }
 
-/// What a block's places are given: the planes of 2 x 2 pixels each.
+/// What a block's places are given: the planes of 2 x 2 pixels each, and 0 in what is left over.
 void take(const PlanesOfPixel* input, float* places) {
   for (int place = 0; place < kPlaces; ++place) {
     const auto* const corner =
@@ -82,6 +82,7 @@ void take(const PlanesOfPixel* input, float* places) {
       const auto& from = corner[i / kFold * kBlock_px + i % kFold];
       for (int c = 0; c < kPlanes; ++c) to[c * kPixelsOfPlace + i] = from[c];
     }
+    std::fill(to + kPlanes * kPixelsOfPlace, to + weights::kFieldInputs, 0.0F);
   }
 }
 
@@ -149,7 +150,6 @@ Result<void> Network::run(Look& look, const BlockMap& blocks, const image::Rect&
     return std::span(values_).first(static_cast<std::size_t>(count * kPlaces * columns));
   };
   const auto in = used(weights::kFieldInputs);
-  std::fill(in.begin(), in.end(), 0.0F);
   threads::share_out(look.pool, count, [&](int i) {
     std::array<PlanesOfPixel, kBlock_px * kBlock_px> planes;  // all of them are given
     look.planes_of(blocks.blocks[static_cast<std::size_t>(i)], planes.data());

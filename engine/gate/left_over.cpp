@@ -4,8 +4,11 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <utility>
 #include <vector>
+
+#include "geometry/mask_box.hpp"
 
 namespace flowdlo::gate {
 namespace {
@@ -33,43 +36,38 @@ struct Cells {
     return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
            static_cast<std::size_t>(x);
   }
+  [[nodiscard]] std::size_t count() const {
+    return static_cast<std::size_t>(std::count(left.begin(), left.end(), std::uint8_t{1}));
+  }
+  /// Index of the first one left from `from` on; as many as there are where none is.
+  [[nodiscard]] std::size_t next(std::size_t from) const {
+    const void* const found = std::memchr(left.data() + from, 1, left.size() - from);
+    return found == nullptr
+               ? left.size()
+               : static_cast<std::size_t>(static_cast<const std::uint8_t*>(found) - left.data());
+  }
 };
-
-bool is_rope(std::uint8_t value) { return value > kMaskThreshold; }
 
 Cells mask_cells(const Frame& frame, float width_px) {
   Cells cells;
   cells.stride_px = std::max(1, static_cast<int>(width_px / kCellsAcross));
-  int right = -1;
-  int bottom = -1;
-  cells.left_px = frame.width;
-  cells.top_px = frame.height;
-  for (int v = 0; v < frame.height; ++v) {
-    const std::uint8_t* const row =
-        frame.mask.data() + static_cast<std::size_t>(v) * static_cast<std::size_t>(frame.width);
-    const std::uint8_t* const first = std::find_if(row, row + frame.width, is_rope);
-    if (first == row + frame.width) continue;
-    int last = frame.width - 1;
-    while (!is_rope(row[last])) --last;
-    cells.left_px = std::min(cells.left_px, static_cast<int>(first - row));
-    cells.top_px = std::min(cells.top_px, v);
-    right = std::max(right, last);
-    bottom = v;
-  }
-  if (right < 0) return cells;
-  cells.width = (right - cells.left_px) / cells.stride_px + 1;
-  cells.height = (bottom - cells.top_px) / cells.stride_px + 1;
+  const geometry::MaskBox box = geometry::mask_box(frame);
+  if (box.width == 0) return cells;
+  cells.left_px = box.left;
+  cells.top_px = box.top;
+  cells.width = (box.width - 1) / cells.stride_px + 1;
+  cells.height = (box.height - 1) / cells.stride_px + 1;
   cells.left.resize(cells.at(0, cells.height));
   for (int y = 0; y < cells.height; ++y) {
     const std::uint8_t* const row =
         frame.mask.data() + static_cast<std::size_t>(cells.top_px + y * cells.stride_px) *
                                 static_cast<std::size_t>(frame.width);
+    std::uint8_t* const to = cells.left.data() + cells.at(0, y);
     for (int x = 0; x < cells.width; ++x) {
-      const bool lit = is_rope(row[cells.left_px + x * cells.stride_px]);
-      cells.left[cells.at(x, y)] = lit ? 1 : 0;
-      cells.lit += lit ? 1 : 0;
+      to[x] = row[cells.left_px + x * cells.stride_px] > kMaskThreshold ? 1 : 0;
     }
   }
+  cells.lit = cells.count();
   return cells;
 }
 
@@ -109,17 +107,15 @@ std::vector<std::int32_t> depths_within(const Cells& cells) {
         std::min(at(x - way, y - way), at(x + way, y - way)) + kDiagonalStep;
     return std::min(straight, diagonal);
   };
-  for (int y = 0; y < cells.height; ++y) {
-    for (int x = 0; x < cells.width; ++x) {
-      const std::size_t i = cells.at(x, y);
-      if (cells.left[i] != 0) depth[i] = relax(x, y, 1);
-    }
+  const auto width = static_cast<std::size_t>(cells.width);
+  std::vector<std::size_t> left;
+  for (std::size_t i = cells.next(0); i < cells.left.size(); i = cells.next(i + 1)) {
+    depth[i] = relax(static_cast<int>(i % width), static_cast<int>(i / width), 1);
+    left.push_back(i);
   }
-  for (int y = cells.height - 1; y >= 0; --y) {
-    for (int x = cells.width - 1; x >= 0; --x) {
-      const std::size_t i = cells.at(x, y);
-      if (cells.left[i] != 0) depth[i] = std::min(depth[i], relax(x, y, -1));
-    }
+  for (auto i = left.rbegin(); i != left.rend(); ++i) {
+    const int back = relax(static_cast<int>(*i % width), static_cast<int>(*i / width), -1);
+    depth[*i] = std::min(depth[*i], back);
   }
   return depth;
 }
@@ -169,8 +165,7 @@ float strands_widths(Cells cells, float width_cells) {
   const auto thick = static_cast<std::int32_t>(kStraightStep * kThick * width_cells);
   float sum = 0;
   std::vector<std::size_t> queue;
-  for (std::size_t seed = 0; seed < cells.left.size(); ++seed) {
-    if (cells.left[seed] == 0) continue;
+  for (std::size_t seed = cells.next(0); seed < cells.left.size(); seed = cells.next(seed)) {
     const Piece piece = take_piece(seed, depth, cells, queue);
     const float across = static_cast<float>(piece.across) / width_cells;
     const float area = static_cast<float>(piece.cells) / (width_cells * width_cells);
@@ -189,7 +184,7 @@ LeftOver left_over(const ImageCurve& curve, float widening, const Frame& frame) 
   Cells cells = mask_cells(frame, curve.width_px);
   if (cells.lit == 0) return {};
   take_away(curve, widening, cells);
-  const auto left = std::count(cells.left.begin(), cells.left.end(), std::uint8_t{1});
+  const std::size_t left = cells.count();
   const float width_cells = widening * curve.width_px / static_cast<float>(cells.stride_px);
   LeftOver result;
   result.explained = 1 - static_cast<float>(left) / static_cast<float>(cells.lit);

@@ -34,17 +34,22 @@ bool Strand::here() const { return surface_m < kNowhere_m; }
 TubeRaster::TubeRaster(int width, int height)
     : width_(width),
       height_(height),
-      cells_(static_cast<std::size_t>(width) * static_cast<std::size_t>(height),
-             TubeCell{kAbsent, kAbsent}) {}
+      numbers_(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), 0) {}
+
+std::uint32_t& TubeRaster::number_at(int column, int row) {
+  return numbers_[static_cast<std::size_t>(row) * static_cast<std::size_t>(width_) +
+                  static_cast<std::size_t>(column)];
+}
 
 /// Keeps the nearest surface of each of the two nearest strands.
-void TubeRaster::put(std::size_t index, const Strand& sample) {
-  TubeCell& cell = cells_[index];
-  if (!cell.front.here()) {
-    cell.front = sample;
-    covered_.push_back(static_cast<std::uint32_t>(index));
+void TubeRaster::put(int column, int row, const Strand& sample) {
+  std::uint32_t& number = number_at(column, row);
+  if (number == 0) {
+    covered_.push_back({column, row, sample, kAbsent});
+    number = static_cast<std::uint32_t>(covered_.size());
     return;
   }
+  TubeCell& cell = covered_[number - 1];
   const auto same = [&](const Strand& strand) {
     return strand.here() && std::abs(strand.arclength_m - sample.arclength_m) <= strand_gap_m_;
   };
@@ -78,7 +83,6 @@ void TubeRaster::draw_segment(const TubePoint& from, const TubePoint& to) {
         std::minmax({from.cell.x() + begin * along.x(), from.cell.x() + end * along.x()});
     const int first = std::max(0, cell_clamped(std::ceil(left - reach), width_));
     const int last = std::min(width_ - 1, cell_clamped(std::floor(right + reach), width_));
-    const std::size_t start = static_cast<std::size_t>(row) * static_cast<std::size_t>(width_);
     for (int column = first; column <= last; ++column) {
       const Eigen::Vector2f at(static_cast<float>(column), y);
       const float t =
@@ -88,7 +92,7 @@ void TubeRaster::draw_segment(const TubePoint& from, const TubePoint& to) {
       if (distance_squared > (radius + rim_cells_) * (radius + rim_cells_)) continue;
       const float off_axis = std::sqrt(distance_squared) / radius;
       const float bulge_m = radius_m_ * std::sqrt(std::max(0.0F, 1 - off_axis * off_axis));
-      put(start + static_cast<std::size_t>(column),
+      put(column, row,
           {from.depth_m + t * (to.depth_m - from.depth_m) - bulge_m,
            from.arclength_m + t * (to.arclength_m - from.arclength_m), off_axis});
     }
@@ -100,7 +104,7 @@ void TubeRaster::draw(std::span<const TubePoint> points, float radius_m, float r
   radius_m_ = radius_m;
   rim_cells_ = rim_cells;
   strand_gap_m_ = strand_gap_m;
-  for (const std::uint32_t index : covered_) cells_[index] = {kAbsent, kAbsent};
+  for (const TubeCell& cell : covered_) number_at(cell.column, cell.row) = 0;
   covered_.clear();
   for (std::size_t i = 0; i + 1 < points.size(); ++i) draw_segment(points[i], points[i + 1]);
 }

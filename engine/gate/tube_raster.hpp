@@ -29,14 +29,15 @@ struct Strand {
 
 /// The nearest strand, and one more where two strands overlap.
 struct TubeCell {
+  int column = 0;
+  int row = 0;
   Strand front;
   Strand back;
 };
 
-/// [height, width] cells, row-major.
+/// [height, width] cells, of which only those that the tube covers take more than a number.
 class TubeRaster {
  public:
-  TubeRaster() = default;
   TubeRaster(int width, int height);
 
   /// Clears what was drawn before and draws the tube through `points`, each radius larger by
@@ -44,21 +45,22 @@ class TubeRaster {
   /// Points are finite, radii above 0.
   void draw(std::span<const TubePoint> points, float radius_m, float rim_cells, float strand_gap_m);
 
-  /// Indices of the cells that hold a strand, each once.
-  [[nodiscard]] const std::vector<std::uint32_t>& covered() const { return covered_; }
-  [[nodiscard]] const TubeCell& cell(std::size_t index) const { return cells_[index]; }
+  /// The cells that hold a strand, in the order in which they were first drawn to.
+  [[nodiscard]] const std::vector<TubeCell>& covered() const { return covered_; }
 
  private:
   void draw_segment(const TubePoint& from, const TubePoint& to);
-  void put(std::size_t index, const Strand& sample);
+  void put(int column, int row, const Strand& sample);
+  [[nodiscard]] std::uint32_t& number_at(int column, int row);
 
   int width_ = 0;
   int height_ = 0;
   float radius_m_ = 0;
   float rim_cells_ = 0;
   float strand_gap_m_ = 0;
-  std::vector<TubeCell> cells_;
-  std::vector<std::uint32_t> covered_;
+  std::vector<std::uint32_t>
+      numbers_;  // [height, width] of a covered cell from 1 on; 0: not covered
+  std::vector<TubeCell> covered_;
 };
 
 }  // namespace flowdlo::gate

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 
 #include "gate/tube_shape.hpp"
 #include "geometry/camera.hpp"
@@ -14,7 +15,7 @@ namespace flowdlo::gate {
 namespace {
 
 constexpr std::uint8_t kMaskThreshold = 127;  // 0.5 of an 8-bit mask
-constexpr float kCellsAcross = 5;  // a rope's width
+constexpr float kCellsAcross = 5;             // a rope's width
 constexpr float kMostCells =
     1U << 21;                       // of a raster: 2 px a cell where ropes are thin in large frames
 constexpr float kMargin = 2;        // of the region around the mask, in widths
@@ -47,8 +48,7 @@ class NearCrossings {
         near_(static_cast<std::size_t>(length_m / step_m_) + 1, 0) {
     const int reach = static_cast<int>(std::ceil(kNearCrossing * radius_m / step_m_));
     std::vector<std::uint8_t> overlaps(near_.size(), 0);
-    for (const std::uint32_t index : raster.covered()) {
-      const TubeCell& cell = raster.cell(index);
+    for (const TubeCell& cell : raster.covered()) {
       if (!cell.back.here() || cell.back.off_axis > kCore || cell.front.off_axis > kCore) continue;
       overlaps[at(cell.front.arclength_m)] = 1;
       overlaps[at(cell.back.arclength_m)] = 1;
@@ -107,102 +107,95 @@ float tube_radius_m(const Centerline& nodes, const Intrinsics& camera, float rop
 }
 
 TubeView::TubeView(const Frame& frame, float rope_width_px)
-    : camera_(frame.intrinsics),
+    : frame_(frame),
       rope_width_px_(usual_width_px(rope_width_px)),
       stride_px_(std::max(1, static_cast<int>(rope_width_px_ / kCellsAcross))) {
-  find_region(frame);
+  const geometry::MaskBox mask = geometry::mask_box(frame);
+  if (mask.width == 0) return;
+  find_region(mask);
   while (static_cast<float>(width_) * static_cast<float>(height_) > kMostCells) {
     ++stride_px_;
-    find_region(frame);
+    find_region(mask);
   }
-  const auto cells = static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_);
-  mask_.assign(cells, 0);
-  depth_m_.assign(cells, 0);
-  for (int y = 0; y < height_; ++y) {
-    for (int x = 0; x < width_; ++x) {
-      const auto pixel = static_cast<std::size_t>(top_px_ + y * stride_px_) *
-                             static_cast<std::size_t>(frame.width) +
-                         static_cast<std::size_t>(left_px_ + x * stride_px_);
-      const auto cell = static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) +
-                        static_cast<std::size_t>(x);
-      mask_[cell] = frame.mask[pixel] > kMaskThreshold ? 1 : 0;
-      const float depth = frame.depth_m[pixel];
-      if (geometry::measured(depth)) depth_m_[cell] = depth;
-    }
-  }
-  raster_ = TubeRaster(width_, height_);
-  masked_ = static_cast<double>(std::count(mask_.begin(), mask_.end(), std::uint8_t{1}));
-  noise_m_ = depth_noise_m();
+  measure_mask();
 }
 
 /// The cells that hold the mask and a margin.
-void TubeView::find_region(const Frame& frame) {
-  int left = frame.width;
-  int right = -1;
-  int top = frame.height;
-  int bottom = -1;
-  for (int v = 0; v < frame.height; ++v) {
-    const std::uint8_t* const row =
-        frame.mask.data() + static_cast<std::size_t>(v) * static_cast<std::size_t>(frame.width);
-    const auto lit = [](std::uint8_t value) { return value > kMaskThreshold; };
-    const std::uint8_t* const first = std::find_if(row, row + frame.width, lit);
-    if (first == row + frame.width) continue;
-    int last = frame.width - 1;
-    while (!lit(row[last])) --last;
-    left = std::min(left, static_cast<int>(first - row));
-    right = std::max(right, last);
-    top = std::min(top, v);
-    bottom = v;
-  }
-  if (right < 0) return;
+void TubeView::find_region(const geometry::MaskBox& mask) {
   const int margin = static_cast<int>(kMargin * rope_width_px_) + 2;
-  left_px_ = std::max(0, left - margin);
-  top_px_ = std::max(0, top - margin);
-  width_ = (std::min(frame.width - 1, right + margin) - left_px_) / stride_px_ + 1;
-  height_ = (std::min(frame.height - 1, bottom + margin) - top_px_) / stride_px_ + 1;
+  left_px_ = std::max(0, mask.left - margin);
+  top_px_ = std::max(0, mask.top - margin);
+  const int right = std::min(frame_.width - 1, mask.left + mask.width - 1 + margin);
+  const int bottom = std::min(frame_.height - 1, mask.top + mask.height - 1 + margin);
+  width_ = (right - left_px_) / stride_px_ + 1;
+  height_ = (bottom - top_px_) / stride_px_ + 1;
 }
 
-/// A standard deviation, from the median difference of neighbours on the mask.
-float TubeView::depth_noise_m() const {
+std::size_t TubeView::pixel_of(int column, int row) const {
+  return static_cast<std::size_t>(top_px_ + row * stride_px_) *
+             static_cast<std::size_t>(frame_.width) +
+         static_cast<std::size_t>(left_px_ + column * stride_px_);
+}
+
+bool TubeView::masked(std::size_t pixel) const { return frame_.mask[pixel] > kMaskThreshold; }
+
+/// 0: none.
+float TubeView::depth_m(std::size_t pixel) const {
+  const float depth = frame_.depth_m[pixel];
+  return geometry::measured(depth) ? depth : 0;
+}
+
+/// How many cells it has, and the deviation of its depths from the median difference of neighbours.
+void TubeView::measure_mask() {
   std::vector<float> steps;
-  for (int y = 0; y < height_; ++y) {
-    for (int x = 0; x + 1 < width_; ++x) {
-      const std::size_t i = static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) +
-                            static_cast<std::size_t>(x);
-      if (mask_[i] == 0 || mask_[i + 1] == 0 || depth_m_[i] <= 0 || depth_m_[i + 1] <= 0) continue;
-      steps.push_back(std::abs(depth_m_[i] - depth_m_[i + 1]));
+  for (int row = 0; row < height_; ++row) {
+    const std::size_t first = pixel_of(0, row);
+    const std::uint8_t* const mask = frame_.mask.data() + first;
+    const int last_px = (width_ - 1) * stride_px_;
+    int before_px = -1 - stride_px_;  // the cell of the mask to the left
+    for (int u = geometry::first_masked(mask, 0, last_px + 1); u <= last_px;
+         u = geometry::first_masked(mask, u + 1, last_px + 1)) {
+      if (u % stride_px_ != 0) continue;
+      masked_ += 1;
+      if (u - before_px == stride_px_) {
+        const float left_m = depth_m(first + static_cast<std::size_t>(before_px));
+        const float right_m = depth_m(first + static_cast<std::size_t>(u));
+        if (left_m > 0 && right_m > 0) steps.push_back(std::abs(left_m - right_m));
+      }
+      before_px = u;
     }
   }
-  if (steps.empty()) return 0;
-  return 1.05F * geometry::median_of(steps);  // median of |a - b| is 0.954 deviations
+  if (steps.empty()) return;
+  noise_m_ = 1.05F * geometry::median_of(steps);  // median of |a - b| is 0.954 deviations
 }
 
 float TubeView::radius_m(const Centerline& nodes) const {
-  return tube_radius_m(nodes, camera_, rope_width_px_);
+  return tube_radius_m(nodes, frame_.intrinsics, rope_width_px_);
 }
 
 void TubeView::compare(const std::vector<TubePoint>& tube, float radius_m, TubeScore& score) {
   const auto stride = static_cast<float>(stride_px_);
   const float rim_cells = std::max(kRim_px, kRim * 0.5F * rope_width_px_) / stride;
-  raster_.draw(tube, radius_m, rim_cells, kStrandGap * radius_m);
-  const NearCrossings near(raster_, tube.back().arclength_m, radius_m);
+  raster_->draw(tube, radius_m, rim_cells, kStrandGap * radius_m);
+  const NearCrossings near(*raster_, tube.back().arclength_m, radius_m);
   const float tolerance_m = kTolerance * radius_m + kNoiseTolerance * noise_m_;
   Tally tally;
-  for (const std::uint32_t i : raster_.covered()) {
-    const TubeCell& cell = raster_.cell(i);
-    const bool masked = mask_[i] != 0;
-    tally.explained += masked ? 1 : 0;
+  for (const TubeCell& cell : raster_->covered()) {
+    const std::size_t pixel = pixel_of(cell.column, cell.row);
+    const bool on_mask = masked(pixel);
+    const float measured_m = depth_m(pixel);
+    tally.explained += on_mask ? 1 : 0;
     const bool back = cell.back.here() && cell.back.off_axis <= kCore;
     if (cell.front.off_axis <= kCore || back) {
       // Behind something else, or where nothing was measured: the mask cannot tell.
-      const bool hidden = !masked && depth_m_[i] < cell.front.surface_m - tolerance_m - radius_m;
+      const bool hidden = !on_mask && measured_m < cell.front.surface_m - tolerance_m - radius_m;
       tally.tube += 1;
       tally.hidden += hidden ? 1 : 0;
-      tally.on_mask += masked ? 1 : 0;
+      tally.on_mask += on_mask ? 1 : 0;
       tally.doubled += back && cell.front.off_axis <= kCore ? 1 : 0;
     }
-    if (!masked || depth_m_[i] <= 0 || cell.front.off_axis > kRidge) continue;
-    const float off = (depth_m_[i] - cell.front.surface_m) / tolerance_m;
+    if (!on_mask || measured_m <= 0 || cell.front.off_axis > kRidge) continue;
+    const float off = (measured_m - cell.front.surface_m) / tolerance_m;
     const bool agrees = std::abs(off) <= 1;
     tally.depths += 1;
     tally.agreeing += agrees ? 1 : 0;
@@ -222,20 +215,22 @@ void TubeView::compare(const std::vector<TubePoint>& tube, float radius_m, TubeS
 }
 
 TubeScore TubeView::score(const Centerline& nodes, float radius_m) {
-  if (!usable(nodes) || !(radius_m > 0 && radius_m <= kMostRadius_m) || mask_.empty()) return {};
+  if (!usable(nodes) || !(radius_m > 0 && radius_m <= kMostRadius_m) || width_ == 0) return {};
+  const Intrinsics& camera = frame_.intrinsics;
   const auto stride = static_cast<float>(stride_px_);
   std::vector<TubePoint> tube = smooth_tube(nodes);
   const float most_cells = kMostWider * 0.5F * rope_width_px_ / stride;
   for (TubePoint& point : tube) {
-    const float x = camera_.fx * point.cam.x() / point.depth_m + camera_.cx;
-    const float y = camera_.fy * point.cam.y() / point.depth_m + camera_.cy;
+    const float x = camera.fx * point.cam.x() / point.depth_m + camera.cx;
+    const float y = camera.fy * point.cam.y() / point.depth_m + camera.cy;
     point.cell = {(x - static_cast<float>(left_px_)) / stride,
                   (y - static_cast<float>(top_px_)) / stride};
     if (!point.cell.allFinite() || point.cell.cwiseAbs().maxCoeff() > kFarthestCell) return {};
     point.radius_cells =
-        std::clamp(radius_m * camera_.fx / point.depth_m / stride, 1e-3F, most_cells);
+        std::clamp(radius_m * camera.fx / point.depth_m / stride, 1e-3F, most_cells);
   }
   if (!std::isfinite(tube.back().arclength_m)) return {};
+  if (!raster_) raster_.emplace(width_, height_);
   TubeScore score;
   compare(tube, radius_m, score);
   measure_crossings(tube, radius_m, score);

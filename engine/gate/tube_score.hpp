@@ -1,12 +1,14 @@
 // Render and compare: a centerline drawn as a tube, held against mask and depth.
 #pragma once
 
-#include <cstdint>
+#include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "flowdlo/centerline.hpp"
 #include "flowdlo/frame.hpp"
 #include "gate/tube_raster.hpp"
+#include "geometry/mask_box.hpp"
 
 namespace flowdlo::gate {
 
@@ -33,11 +35,11 @@ struct TubeScore {
 [[nodiscard]] float tube_radius_m(const Centerline& nodes, const Intrinsics& camera,
                                   float rope_width_px);
 
-/// The side of a frame that hypotheses are compared with, read once. Rasters are coarse: a rope is
-/// five to ten cells wide, or as many pixels as it has.
+/// The side of a frame that hypotheses are compared with. Rasters are coarse: a rope is five to ten
+/// cells wide, or as many pixels as it has.
 class TubeView {
  public:
-  /// Expects a valid frame. `rope_width_px` is path::Traversals'.
+  /// Expects a valid frame, whose pixels have to outlive it. `rope_width_px` is path::Traversals'.
   TubeView(const Frame& frame, float rope_width_px);
 
   /// `tube_radius_m` of the rope's width.
@@ -51,11 +53,14 @@ class TubeView {
   [[nodiscard]] TubeScore score(const Centerline& nodes, float radius_m);
 
  private:
-  void find_region(const Frame& frame);
-  [[nodiscard]] float depth_noise_m() const;
+  void find_region(const geometry::MaskBox& mask);
+  [[nodiscard]] std::size_t pixel_of(int column, int row) const;
+  [[nodiscard]] bool masked(std::size_t pixel) const;
+  [[nodiscard]] float depth_m(std::size_t pixel) const;
+  void measure_mask();
   void compare(const std::vector<TubePoint>& tube, float radius_m, TubeScore& score);
 
-  Intrinsics camera_;
+  Frame frame_;
   float rope_width_px_;
   int stride_px_;
   int left_px_ = 0;
@@ -64,9 +69,7 @@ class TubeView {
   int height_ = 0;     ///< cells
   double masked_ = 0;  ///< cells of the mask
   float noise_m_ = 0;
-  std::vector<std::uint8_t> mask_;  ///< [height, width] 1: rope
-  std::vector<float> depth_m_;      ///< [height, width] 0: none
-  TubeRaster raster_;               ///< of the last hypothesis; kept for its memory
+  std::optional<TubeRaster> raster_;  ///< of the last hypothesis; kept for its memory
 };
 
 }  // namespace flowdlo::gate

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 
 namespace flowdlo::geometry {
 namespace {
@@ -16,7 +17,20 @@ bool any_lit(const std::uint8_t* pixels, int count) {
   return lit(all);
 }
 
+/// Of eight pixels: above 127 is the top bit's weight.
+bool eight_unlit(const std::uint8_t* pixels) {
+  std::uint64_t word = 0;
+  std::memcpy(&word, pixels, sizeof word);
+  return (word & 0x8080808080808080U) == 0;
+}
+
 }  // namespace
+
+int first_masked(const std::uint8_t* pixels, int from, int count) {
+  while (from + 8 <= count && eight_unlit(pixels + from)) from += 8;
+  while (from < count && !lit(pixels[from])) ++from;
+  return from;
+}
 
 MaskBox mask_box(const Frame& frame) {
   const auto row = [&](int v) {

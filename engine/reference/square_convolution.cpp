@@ -122,33 +122,35 @@ FLOWDLO_INLINE void turn_result(const SquareBlocks& blocks, const float* product
   }
 }
 
-/// products[tiles][kPanel] = x[tiles][in] times one panel of one point's matrix.
-template <int kRows>
+/// products[tiles][kPanel] = x[tiles][in] times `kAcross` registers of columns of one panel of one
+/// point's matrix.
+template <int kRows, int kAcross>
 FLOWDLO_INLINE void multiply(const float* x, int in, const float* panel, float* products) {
-  Tile<kRows> tile{};
+  Tile<kRows, kAcross> tile{};
   accumulate(tile, x, in, 1, panel, kPanel, in);
   for (int r = 0; r < kRows; ++r) {
-    for (int i = 0; i < kTileLanes; ++i) {
+    for (int i = 0; i < kAcross; ++i) {
       store(products + floats(r, kPanel) + i * kLanes, tile.sums[r][i]);
     }
   }
 }
 
+template <int kAcross>
 FLOWDLO_INLINE void multiply_all(const float* x, int tiles, int in, const float* panel,
                                  float* products) {
   constexpr int kMost = kTileRows >= 8 ? 8 : kTileRows;
   int row = 0;
   for (; row + kMost <= tiles; row += kMost) {
-    multiply<kMost>(x + floats(row, in), in, panel, products + floats(row, kPanel));
+    multiply<kMost, kAcross>(x + floats(row, in), in, panel, products + floats(row, kPanel));
   }
   for (; row + 4 <= tiles; row += 4) {
-    multiply<4>(x + floats(row, in), in, panel, products + floats(row, kPanel));
+    multiply<4, kAcross>(x + floats(row, in), in, panel, products + floats(row, kPanel));
   }
   for (; row + 2 <= tiles; row += 2) {
-    multiply<2>(x + floats(row, in), in, panel, products + floats(row, kPanel));
+    multiply<2, kAcross>(x + floats(row, in), in, panel, products + floats(row, kPanel));
   }
   for (; row < tiles; ++row) {
-    multiply<1>(x + floats(row, in), in, panel, products + floats(row, kPanel));
+    multiply<1, kAcross>(x + floats(row, in), in, panel, products + floats(row, kPanel));
   }
 }
 
@@ -176,10 +178,15 @@ void square_convolution(const SquareBlocks& blocks) {
   for (int column = 0; column < blocks.out; column += kPanel) {
     const int left = (blocks.out - column) / kLanes;
     for (int point = 0; point < kTurned; ++point) {
+      const float* const x = turned + floats(point, kTurnedApart);
       const float* const panel =
           blocks.panels + floats(point, blocks.in) * blocks.columns + floats(column, blocks.in);
-      multiply_all(turned + floats(point, kTurnedApart), tiles, blocks.in, panel,
-                   products + floats(point, kProductsApart));
+      float* const to = products + floats(point, kProductsApart);
+      if (left < kTileLanes) {
+        multiply_all<1>(x, tiles, blocks.in, panel, to);
+      } else {
+        multiply_all<kTileLanes>(x, tiles, blocks.in, panel, to);
+      }
     }
     for (int tile = 0; tile < tiles; ++tile) {
       const auto block = static_cast<std::ptrdiff_t>(map_of(tile)[kOwn]);

@@ -23,9 +23,10 @@ constexpr int kTileRows = 4;
 constexpr int kTileLanes = 2;
 constexpr int kPanel = kTileLanes * kLanes;  ///< columns of a tile
 
-template <int kRows>
+/// `kAcross` registers of columns: fewer than kTileLanes where a panel is not full.
+template <int kRows, int kAcross = kTileLanes>
 struct Tile {
-  Lanes sums[kRows][kTileLanes];
+  Lanes sums[kRows][kAcross];
 };
 
 #if defined(__aarch64__)
@@ -39,9 +40,10 @@ FLOWDLO_INLINE Lanes load_scalars(const float* from) { return vld1q_f32(from); }
 
 /// As accumulate(), for rows whose depths are neighbours. Returns how many depths it has taken, all
 /// but a remainder below 4.
-template <int kRows>
-FLOWDLO_INLINE int accumulate_by_rows(Tile<kRows>& tile, const float* x, std::ptrdiff_t row_step,
-                                      const float* panel, std::ptrdiff_t panel_step, int depth) {
+template <int kRows, int kAcross>
+FLOWDLO_INLINE int accumulate_by_rows(Tile<kRows, kAcross>& tile, const float* x,
+                                      std::ptrdiff_t row_step, const float* panel,
+                                      std::ptrdiff_t panel_step, int depth) {
   int k = 0;
 #pragma GCC unroll 1
   for (; k + kScalars <= depth; k += kScalars) {
@@ -50,13 +52,13 @@ FLOWDLO_INLINE int accumulate_by_rows(Tile<kRows>& tile, const float* x, std::pt
     for (int r = 0; r < kRows; ++r) scalars[r] = load_scalars(x + r * row_step + k);
 #pragma GCC unroll 4
     for (int j = 0; j < kScalars; ++j) {
-      Lanes columns[kTileLanes];
-      for (int i = 0; i < kTileLanes; ++i) {
+      Lanes columns[kAcross];
+      for (int i = 0; i < kAcross; ++i) {
         columns[i] = load(panel + (k + j) * panel_step + i * kLanes);
       }
 #pragma GCC unroll 16
       for (int r = 0; r < kRows; ++r) {
-        for (int i = 0; i < kTileLanes; ++i) tile.sums[r][i] += columns[i] * scalars[r][j];
+        for (int i = 0; i < kAcross; ++i) tile.sums[r][i] += columns[i] * scalars[r][j];
       }
     }
   }
@@ -64,20 +66,20 @@ FLOWDLO_INLINE int accumulate_by_rows(Tile<kRows>& tile, const float* x, std::pt
 }
 
 /// As accumulate(), for depths whose rows are neighbours; kRows is a multiple of 4.
-template <int kRows>
-FLOWDLO_INLINE void accumulate_by_depths(Tile<kRows>& tile, const float* x,
+template <int kRows, int kAcross>
+FLOWDLO_INLINE void accumulate_by_depths(Tile<kRows, kAcross>& tile, const float* x,
                                          std::ptrdiff_t depth_step, const float* panel,
                                          std::ptrdiff_t panel_step, int depth) {
 #pragma GCC unroll 2
   for (int k = 0; k < depth; ++k) {
-    Lanes columns[kTileLanes];
-    for (int i = 0; i < kTileLanes; ++i) columns[i] = load(panel + k * panel_step + i * kLanes);
+    Lanes columns[kAcross];
+    for (int i = 0; i < kAcross; ++i) columns[i] = load(panel + k * panel_step + i * kLanes);
 #pragma GCC unroll 4
     for (int first = 0; first < kRows; first += kScalars) {
       const Lanes scalars = load_scalars(x + k * depth_step + first);
 #pragma GCC unroll 4
       for (int r = 0; r < kScalars; ++r) {
-        for (int i = 0; i < kTileLanes; ++i) {
+        for (int i = 0; i < kAcross; ++i) {
           tile.sums[first + r][i] += columns[i] * scalars[r];
         }
       }
@@ -87,8 +89,8 @@ FLOWDLO_INLINE void accumulate_by_depths(Tile<kRows>& tile, const float* x,
 #endif
 
 /// sums[r] += sum over k of x[r * row_step + k * depth_step] * panel[k * panel_step ...].
-template <int kRows>
-FLOWDLO_INLINE void accumulate(Tile<kRows>& tile, const float* x, std::ptrdiff_t row_step,
+template <int kRows, int kAcross>
+FLOWDLO_INLINE void accumulate(Tile<kRows, kAcross>& tile, const float* x, std::ptrdiff_t row_step,
                                std::ptrdiff_t depth_step, const float* panel,
                                std::ptrdiff_t panel_step, int depth) {
   int k = 0;
@@ -101,12 +103,12 @@ FLOWDLO_INLINE void accumulate(Tile<kRows>& tile, const float* x, std::ptrdiff_t
 #endif
 #pragma GCC unroll 2  // more spills the sums of AVX2
   for (; k < depth; ++k) {
-    Lanes columns[kTileLanes];
-    for (int i = 0; i < kTileLanes; ++i) columns[i] = load(panel + k * panel_step + i * kLanes);
+    Lanes columns[kAcross];
+    for (int i = 0; i < kAcross; ++i) columns[i] = load(panel + k * panel_step + i * kLanes);
 #pragma GCC unroll 16
     for (int r = 0; r < kRows; ++r) {
       const float value = x[r * row_step + k * depth_step];
-      for (int i = 0; i < kTileLanes; ++i) tile.sums[r][i] += value * columns[i];
+      for (int i = 0; i < kAcross; ++i) tile.sums[r][i] += value * columns[i];
     }
   }
 }

@@ -21,6 +21,9 @@ class Pool {
   Pool(const Pool&) = delete;
   Pool& operator=(const Pool&) = delete;
 
+  /// With the caller's.
+  [[nodiscard]] int threads() const { return static_cast<int>(helpers_.size()) + 1; }
+
  private:
   friend class Beside;
 

@@ -51,12 +51,13 @@ class LiftAll : public ::testing::Test {
     path.score = score;
     return path;
   }
-  [[nodiscard]] std::vector<estimator::Hypothesis> lift(std::vector<path::Path> ranked) const {
+  [[nodiscard]] std::vector<estimator::Hypothesis> lift(std::vector<path::Path> ranked,
+                                                        threads::Pool* pool = nullptr) const {
     path::Traversals paths;
     paths.ranked = std::move(ranked);
     paths.rope_width_px = 9;
     auto lifted =
-        estimator::lift_all(paths, cloud_, visible_, frame_, weights::PriorKind::kRefined);
+        estimator::lift_all(paths, cloud_, visible_, frame_, weights::PriorKind::kRefined, pool);
     return lifted ? *std::move(lifted) : std::vector<estimator::Hypothesis>{};
   }
 
@@ -102,6 +103,35 @@ TEST_F(LiftAll, KindOfPriorIsTheOneAskedFor) {
   ASSERT_TRUE(thesis && refined);
   // The refined prior lies behind the surface that the thesis' prior lies on.
   EXPECT_GT(refined->front().prior.nodes[20].z, thesis->front().prior.nodes[20].z);
+}
+
+TEST_F(LiftAll, ThreadsChangeNoHypothesis) {
+  threads::Pool pool(3);
+  const auto paths = [&] {
+    return std::vector{wave_path(1.0, -1.0), wave_path(0.9, -1.2), wave_path(0.5, -1.4),
+                       wave_path(0.8, -20.0)};
+  };
+  const auto alone = lift(paths());
+  const auto together = lift(paths(), &pool);
+  ASSERT_EQ(together.size(), alone.size());
+  for (std::size_t i = 0; i < alone.size(); ++i) {
+    EXPECT_EQ(together[i].path, alone[i].path);
+    EXPECT_EQ(together[i].score, alone[i].score);
+    for (std::size_t k = 0; k < kNodes; ++k) {
+      EXPECT_EQ(together[i].prior.nodes[k].z, alone[i].prior.nodes[k].z);
+    }
+  }
+}
+
+TEST_F(LiftAll, TellsAtWhichWidthItDrewARefinedPriorAlone) {
+  const auto paths = path::trace(frame_);
+  ASSERT_TRUE(paths);
+  const auto drawn_px = [&](weights::PriorKind kind) {
+    const auto lifted = estimator::lift_all(*paths, cloud_, visible_, frame_, kind);
+    return lifted ? lifted->front().drawn_px : -1;
+  };
+  EXPECT_EQ(drawn_px(weights::PriorKind::kThesis), 0);
+  EXPECT_EQ(drawn_px(weights::PriorKind::kRefined), paths->ranked.front().width_px);
 }
 
 TEST_F(LiftAll, APathThatLeavesTheMaskUnexplainedFallsBehind) {

@@ -41,5 +41,16 @@ TEST(MaskBox, HoldsEveryPixelAbove127AndNoRowOrColumnWithoutOne) {
   }
 }
 
+TEST(FirstMasked, IsTheFirstPixelAbove127FromAnyPlaceOn) {
+  std::vector<std::uint8_t> pixels(37, 127);
+  for (const std::size_t set : {3U, 16U, 36U}) pixels[set] = 128;
+  const int count = static_cast<int>(pixels.size());
+  for (int from = 0; from <= count; ++from) {
+    int expected = from;
+    while (expected < count && pixels[static_cast<std::size_t>(expected)] <= 127) ++expected;
+    EXPECT_EQ(first_masked(pixels.data(), from, count), expected) << from;
+  }
+}
+
 }  // namespace
 }  // namespace flowdlo::geometry
