@@ -1,6 +1,6 @@
 # The command's manual pages and its completion for bash, zsh and fish, made by the command itself,
-# which asks flowdlo-lab for what synth and eval take. A
-# cross build has nobody to run it and does without.
+# which asks flowdlo-lab for what synth and eval take, where that is built. A cross build has nobody to run it and
+# does without.
 if(CMAKE_CROSSCOMPILING AND NOT CMAKE_CROSSCOMPILING_EMULATOR)
   message(STATUS "Manual pages and completion are left out: the command cannot run here")
   return()
@@ -26,7 +26,7 @@ add_custom_command(
   COMMAND flowdlo_cli completion bash > "${completion}/flowdlo"
   COMMAND flowdlo_cli completion zsh > "${completion}/_flowdlo"
   COMMAND flowdlo_cli completion fish > "${completion}/flowdlo.fish"
-  DEPENDS flowdlo_cli flowdlo_lab_cli VERBATIM)
+  DEPENDS flowdlo_cli $<TARGET_NAME_IF_EXISTS:flowdlo_lab_cli> VERBATIM)
 add_custom_target(flowdlo_manual ALL DEPENDS "${completion}/flowdlo.fish")
 
 install(DIRECTORY "${manual}/" DESTINATION "${CMAKE_INSTALL_MANDIR}/man1" COMPONENT command OPTIONAL)

@@ -1,4 +1,4 @@
-# Debian packages by CPack: libflowdlo0.1, libflowdlo-dev, flowdlo, python3-flowdlo, flowdlo-ros.
+# Debian packages by CPack: libflowdlo0.1, libflowdlo-dev, flowdlo, flowdlo-lab, python3-flowdlo, flowdlo-ros.
 # scripts/package configures a build for them: prefix /usr, no RUNPATH, Debian's place for Python packages.
 if(NOT PROJECT_IS_TOP_LEVEL OR NOT BUILD_SHARED_LIBS OR NOT UNIX OR APPLE)
   return()
@@ -66,7 +66,12 @@ flowdlo_package(development libflowdlo-dev libdevel
                 "libflowdlo${abi} (= ${version})")
 flowdlo_package(command flowdlo science "centerlines of ropes from RGB-D frames: the command"
                 "libflowdlo${abi} (= ${version})")
-set(CPACK_DEBIAN_COMMAND_PACKAGE_SUGGESTS ffmpeg)  # for --video
+set(CPACK_DEBIAN_COMMAND_PACKAGE_SUGGESTS "ffmpeg, flowdlo-lab")  # for --video; for synth and eval
+if(TARGET flowdlo_lab_cli)  # apart: it draws with OpenCV, which brings many packages
+  list(APPEND CPACK_COMPONENTS_ALL lab)
+  flowdlo_package(lab flowdlo-lab science "centerlines of ropes from RGB-D frames: scenes and measurements"
+                  "flowdlo (= ${version})")
+endif()
 set(compiles_python "${PROJECT_SOURCE_DIR}/cmake/debian/postinst;${PROJECT_SOURCE_DIR}/cmake/debian/prerm")
 if(TARGET flowdlo_python)
   list(APPEND CPACK_COMPONENTS_ALL python)

@@ -7,8 +7,8 @@
 #include "files/folder_update.hpp"
 #include "flowdlo/config.hpp"
 #include "frame/centerline_csv.hpp"
-#include "mat/mat_png.hpp"
 #include "overlay.hpp"
+#include "png_picture.hpp"
 #include "tensor_files.hpp"
 
 namespace flowdlo::tools {
@@ -45,7 +45,7 @@ Result<void> put_all(files::FolderUpdate& update, const Frame& frame, const Esti
   auto done = update.put("centerline.csv", frame::format_centerline(estimate.nodes));
   if (!done) return done;
   const auto picture =
-      mat::encode_png(draw_overlay(frame, estimate, provenance.device, extras.strands));
+      support::encode_png(draw_overlay(frame, estimate, provenance.device, extras.strands));
   if (!picture) return picture.error();
   if (done = update.put("overlay.png", *picture); !done) return done;
   if (!extras.curve.empty()) {
@@ -67,7 +67,7 @@ Result<void> put_all(files::FolderUpdate& update, const Frame& frame, const Rope
     const auto text = frame::format_centerline(ropes.ropes[rope].nodes);
     if (auto done = update.put(centerline_name(rope), text); !done) return done;
   }
-  const auto picture = mat::encode_png(draw_overlay(frame, ropes, provenance.device));
+  const auto picture = support::encode_png(draw_overlay(frame, ropes, provenance.device));
   if (!picture) return picture.error();
   if (auto done = update.put("overlay.png", *picture); !done) return done;
   return update.put(kKeyFile, ropes_json(ropes, provenance));

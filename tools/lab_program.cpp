@@ -93,7 +93,9 @@ int become_lab(char** argv) {
   const int code = errno;
   support::tell_error(
       "flowdlo {}: expected the program flowdlo-lab at {}, which cannot be run: {}; build the "
-      "target flowdlo_lab_cli, or install flowdlo-lab beside flowdlo\n",
+      "target flowdlo_lab_cli, for which \"scripts/install eval\" installs what it needs, or "
+      "install "
+      "flowdlo-lab beside flowdlo\n",
       argv[1], files::shown(program), std::generic_category().message(code));
   return static_cast<int>(support::ExitCode::kFailed);
 }

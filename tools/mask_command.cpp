@@ -20,10 +20,11 @@
 #include "files/staged_files.hpp"
 #include "flowdlo/mask.hpp"
 #include "frame_list.hpp"
+#include "frame_picture.hpp"
 #include "mask_overlay.hpp"
-#include "mat/mat_png.hpp"
 #include "picture_file.hpp"
 #include "pixel_argument.hpp"
+#include "png_picture.hpp"
 #include "progress_bar.hpp"
 #include "terminal.hpp"
 
@@ -107,11 +108,9 @@ Result<std::vector<support::FrameEntry>> inputs_of(const MaskOptions& options) {
 }
 
 Result<void> write(const fs::path& folder, const Frame& frame) {
-  const cv::Mat view(frame.height, frame.width, CV_8UC1,
-                     const_cast<std::uint8_t*>(frame.mask.data()));  // only read
-  const auto mask = mat::encode_png(view);
+  const auto mask = support::encode_png(mask_of(frame));
   if (!mask) return mask.error();
-  const auto overlay = mat::encode_png(draw_mask_overlay(frame));
+  const auto overlay = support::encode_png(draw_mask_overlay(frame));
   if (!overlay) return overlay.error();
   files::StagedFiles staged(support::chosen_durability());
   if (auto done = staged.add(folder / kOverlayName, *overlay); !done) return done;

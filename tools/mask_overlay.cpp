@@ -1,36 +1,43 @@
 #include "mask_overlay.hpp"
 
-#include <opencv2/imgproc.hpp>
+#include <cmath>
 
+#include "frame_picture.hpp"
+#include "image/brush.hpp"
+#include "image/masks.hpp"
 #include "overlay_style.hpp"
 
 namespace flowdlo::tools {
 namespace {
 
 constexpr double kDimmed = 0.45;  ///< of a pixel's grey beside the mask
-const cv::Scalar kPaper(40, 40, 40);
-const cv::Scalar kRope(200, 200, 200);
+constexpr Color kPaper = support::color_of(40);
+constexpr Color kRope = support::color_of(200);
+
+Color dimmed(const Color& color) {
+  return support::color_of(
+      static_cast<std::uint8_t>(std::lrint(kDimmed * support::grey_of(color))));
+}
 
 }  // namespace
 
-cv::Mat draw_mask_overlay(const Frame& frame) {
-  const cv::Size size(frame.width, frame.height);
-  const cv::Mat mask =
-      cv::Mat(size, CV_8UC1, const_cast<std::uint8_t*>(frame.mask.data())) > 127;  // only read
-  cv::Mat picture(size, CV_8UC3, kPaper);
-  if (frame.color_bgr.empty()) {
-    picture.setTo(kRope, mask);
-  } else {
-    const cv::Mat color(size, CV_8UC3, const_cast<std::uint8_t*>(frame.color_bgr.data()));
-    cv::Mat grey;
-    cv::cvtColor(color, grey, cv::COLOR_BGR2GRAY);
-    cv::cvtColor(grey, picture, cv::COLOR_GRAY2BGR);
-    picture.convertTo(picture, -1, kDimmed);
-    color.copyTo(picture, mask);
+support::Picture draw_mask_overlay(const Frame& frame) {
+  const auto mask = image::above(mask_of(frame), 127, 255);
+  const auto grown = image::dilated(mask, 1);
+  const auto colors = colors_of(frame);
+  support::Picture picture(mask.size());
+  for (int v = 0; v < picture.height(); ++v) {
+    for (int u = 0; u < picture.width(); ++u) {
+      Color& pixel = picture.at(v, u);
+      if (mask.at(v, u) != 0) {
+        pixel = colors.empty() ? kRope : colors.at(v, u);
+      } else if (grown.at(v, u) != 0) {
+        pixel = kSupportedColor;
+      } else {
+        pixel = colors.empty() ? kPaper : dimmed(colors.at(v, u));
+      }
+    }
   }
-  cv::Mat grown;
-  cv::dilate(mask, grown, cv::getStructuringElement(cv::MORPH_RECT, {3, 3}));
-  picture.setTo(kSupportedColor, grown & ~mask);
   return picture;
 }
 

@@ -4,19 +4,21 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
-#include <opencv2/imgproc.hpp>
 #include <vector>
+
+#include "image/masks.hpp"
+#include "pen.hpp"
 
 namespace flowdlo::tools {
 namespace {
 
-constexpr int kFont = cv::FONT_HERSHEY_SIMPLEX;
 constexpr std::size_t kLongestDevice = 34;
 constexpr std::size_t kMostSwatches = 9;
 
 struct Swatch {
-  cv::Scalar color;
+  Color color;
   std::string text;
 };
 
@@ -78,52 +80,56 @@ Legend legend_of(const Ropes& ropes, const std::string& device) {
   return legend;
 }
 
+// Lengths in capital letters' heights.
+constexpr float kLineHeight = 1.9F;
+constexpr float kPadding = 0.9F;
+constexpr float kSwatch = 2.0F;
+
 struct Metrics {
   explicit Metrics(const OverlayStyle& style)
-      : font_scale(style.text_scale),
-        thickness(OverlayStyle::rounded(2.1F * style.text_scale)),
-        line_height_px(OverlayStyle::rounded(40.0F * style.text_scale)),
-        padding_px(OverlayStyle::rounded(19.0F * style.text_scale)),
-        swatch_px(OverlayStyle::rounded(42.0F * style.text_scale)) {}
+      : lettering(style.in_legend),
+        line_height_px(kLineHeight * lettering.height_px),
+        padding_px(kPadding * lettering.height_px),
+        swatch_px(kSwatch * lettering.height_px) {}
 
-  [[nodiscard]] int width_of(const std::string& text) const {
-    int baseline = 0;
-    return cv::getTextSize(text, kFont, font_scale, thickness, &baseline).width;
-  }
-  [[nodiscard]] int width_of(const Swatch& swatch) const {
-    return swatch_px + padding_px / 2 + width_of(swatch.text) + padding_px * 2;
+  [[nodiscard]] float width_of(const Swatch& swatch) const {
+    return swatch_px + padding_px / 2 + lettering.width_px(swatch.text) + padding_px * 2;
   }
 
-  double font_scale;
-  int thickness;
-  int line_height_px;
-  int padding_px;
-  int swatch_px;
+  Lettering lettering;
+  float line_height_px;
+  float padding_px;
+  float swatch_px;
 };
 
-cv::Size size_of(const Legend& legend, const Metrics& metrics) {
-  int width = 0;
-  for (const auto& line : legend.lines) width = std::max(width, metrics.width_of(line));
-  int swatches = 0;
-  for (const auto& swatch : legend.swatches) swatches += metrics.width_of(swatch);
-  width = std::max(width, swatches);
-  const auto rows = static_cast<int>(legend.lines.size()) + 1;
-  return {width + 2 * metrics.padding_px, rows * metrics.line_height_px + 2 * metrics.padding_px};
+int whole(float length_px) { return static_cast<int>(std::lround(length_px)); }
+
+image::Size size_of(const Legend& legend, const Metrics& metrics) {
+  float width_px = 0;
+  for (const auto& line : legend.lines) {
+    width_px = std::max(width_px, metrics.lettering.width_px(line));
+  }
+  float swatches_px = legend.swatches.empty() ? 0 : -2 * metrics.padding_px;
+  for (const auto& swatch : legend.swatches) swatches_px += metrics.width_of(swatch);
+  width_px = std::max(width_px, swatches_px);
+  const std::size_t rows = legend.lines.size() + (legend.swatches.empty() ? 0 : 1);
+  return {whole(width_px + 2 * metrics.padding_px),
+          whole(static_cast<float>(rows) * metrics.line_height_px + 2 * metrics.padding_px)};
 }
 
 // Top left first, so that an empty picture has it there.
-cv::Rect best_corner(const cv::Size& size, const cv::Mat& rope, int margin_px) {
-  const int right = std::max(0, rope.cols - size.width - margin_px);
-  const int below = std::max(0, rope.rows - size.height - margin_px);
-  const std::array<cv::Point, 4> corners = {
+image::Rect best_corner(const image::Size& size, const image::Mask& rope, int margin_px) {
+  const int right = std::max(0, rope.width() - size.width - margin_px);
+  const int below = std::max(0, rope.height() - size.height - margin_px);
+  const std::array<image::Point, 4> corners = {
       {{margin_px, margin_px}, {right, margin_px}, {margin_px, below}, {right, below}}};
-  const cv::Rect picture(0, 0, rope.cols, rope.rows);
-  cv::Rect best;
+  image::Rect best;
   int least_covered = -1;
   for (const auto& corner : corners) {
-    const cv::Rect box = cv::Rect(corner, size) & picture;
+    const auto box =
+        image::Rect{corner.x, corner.y, size.width, size.height} & image::all_of(rope.size());
     if (box.empty()) continue;
-    const int covered = cv::countNonZero(rope(box));
+    const int covered = image::count_set(rope.part(box));
     if (least_covered >= 0 && covered >= least_covered) continue;
     least_covered = covered;
     best = box;
@@ -131,44 +137,59 @@ cv::Rect best_corner(const cv::Size& size, const cv::Mat& rope, int margin_px) {
   return best;
 }
 
-void draw(const Legend& legend, cv::Mat& picture, const cv::Mat& rope, const OverlayStyle& style) {
-  const Metrics metrics(style);
-  const auto box = best_corner(size_of(legend, metrics), rope, metrics.padding_px);
-  if (box.empty()) return;
-  cv::Mat panel = picture(box);
-  panel.convertTo(panel, -1, 0.3, 0);
-
-  const int left = box.x + metrics.padding_px;
-  int baseline = box.y + metrics.padding_px + metrics.line_height_px * 3 / 4;
-  for (const auto& line : legend.lines) {
-    cv::putText(picture, line, {left, baseline}, kFont, metrics.font_scale, kTextColor,
-                metrics.thickness, cv::LINE_AA);
-    baseline += metrics.line_height_px;
+void darken(support::Picture panel) {
+  constexpr float kLeft = 0.3F;  // of each colour
+  for (int v = 0; v < panel.height(); ++v) {
+    for (int u = 0; u < panel.width(); ++u) {
+      for (auto& value : panel.at(v, u)) {
+        value = static_cast<std::uint8_t>(std::lround(kLeft * static_cast<float>(value)));
+      }
+    }
   }
-  int at = left;
+}
+
+void draw(const Legend& legend, support::Picture& picture, const image::Mask& rope,
+          const OverlayStyle& style) {
+  const Metrics metrics(style);
+  const Lettering& lettering = metrics.lettering;
+  const auto box = best_corner(size_of(legend, metrics), rope, whole(metrics.padding_px));
+  if (box.empty()) return;
+  darken(picture.part(box));
+
+  Pen<Color> pen(picture);
+  const float half_line_px = lettering.line_px / 2;
+  Spot start{static_cast<float>(box.x) + metrics.padding_px + half_line_px,
+             static_cast<float>(box.y) + metrics.padding_px +
+                 (metrics.line_height_px + lettering.height_px) / 2};
+  for (const auto& line : legend.lines) {
+    pen.write(line, start, lettering, kTextColor);
+    start.y += metrics.line_height_px;
+  }
   for (const auto& swatch : legend.swatches) {
-    const int middle = baseline - metrics.line_height_px / 4;
-    cv::line(picture, {at + style.line_px, middle}, {at + metrics.swatch_px, middle}, swatch.color,
-             style.line_px, cv::LINE_AA);
-    cv::putText(picture, swatch.text, {at + metrics.swatch_px + metrics.padding_px / 2, baseline},
-                kFont, metrics.font_scale, kTextColor, metrics.thickness, cv::LINE_AA);
-    at += metrics.width_of(swatch);
+    const float middle = start.y - lettering.height_px / 2;
+    const std::array ends{Spot{start.x + style.line_px / 2, middle},
+                          Spot{start.x + metrics.swatch_px, middle}};
+    pen.stroke(ends, style.line_px, swatch.color);
+    pen.write(swatch.text,
+              {start.x + metrics.swatch_px + metrics.padding_px / 2 + half_line_px, start.y},
+              lettering, kTextColor);
+    start.x += metrics.width_of(swatch);
   }
 }
 
 }  // namespace
 
-void draw_legend(cv::Mat& picture, const cv::Mat& rope, const Estimate& estimate,
+void draw_legend(support::Picture& picture, const image::Mask& rope, const Estimate& estimate,
                  const std::string& device, const OverlayStyle& style) {
   draw(legend_of(estimate, device), picture, rope, style);
 }
 
-void draw_legend(cv::Mat& picture, const cv::Mat& rope, const std::string& words,
+void draw_legend(support::Picture& picture, const image::Mask& rope, const std::string& words,
                  const OverlayStyle& style) {
   draw(Legend{{words}, {}}, picture, rope, style);
 }
 
-void draw_legend(cv::Mat& picture, const cv::Mat& rope, const Ropes& ropes,
+void draw_legend(support::Picture& picture, const image::Mask& rope, const Ropes& ropes,
                  const std::string& device, const OverlayStyle& style) {
   draw(legend_of(ropes, device), picture, rope, style);
 }

@@ -1,26 +1,26 @@
 // The overlay's legend: source, confidence, mask agreement, device, and what the colours mean.
 #pragma once
 
-#include <opencv2/core/mat.hpp>
 #include <string>
 
 #include "flowdlo/estimate.hpp"
 #include "overlay_style.hpp"
+#include "picture.hpp"
 
 namespace flowdlo::tools {
 
-/// Draws the legend into the corner of `picture` where it covers least of `rope` (8 bits, the
-/// picture's size, not zero where the rope or the curve is).
-void draw_legend(cv::Mat& picture, const cv::Mat& rope, const Estimate& estimate,
+/// Draws the legend into the corner of `picture` where it covers least of `rope` (the picture's
+/// size, set where the rope or the curve is).
+void draw_legend(support::Picture& picture, const image::Mask& rope, const Estimate& estimate,
                  const std::string& device, const OverlayStyle& style);
 
 /// A sentence in its place.
-void draw_legend(cv::Mat& picture, const cv::Mat& rope, const std::string& words,
+void draw_legend(support::Picture& picture, const image::Mask& rope, const std::string& words,
                  const OverlayStyle& style);
 
 /// The same of several ropes: how many, how sure of the least sure one, the device, and each rope's
 /// colour by its number.
-void draw_legend(cv::Mat& picture, const cv::Mat& rope, const Ropes& ropes,
+void draw_legend(support::Picture& picture, const image::Mask& rope, const Ropes& ropes,
                  const std::string& device, const OverlayStyle& style);
 
 }  // namespace flowdlo::tools

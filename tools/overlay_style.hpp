@@ -5,42 +5,56 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <opencv2/core/types.hpp>
+
+#include "pen.hpp"
+#include "picture.hpp"
 
 namespace flowdlo::tools {
 
-inline const cv::Scalar kSupportedColor(196, 212, 32);
-inline const cv::Scalar kBridgedColor(0, 140, 255);
-inline const cv::Scalar kRimColor(24, 16, 12);
-inline const cv::Scalar kMaskOutlineColor(235, 235, 235);
-inline const cv::Scalar kTextColor(240, 240, 240);
+using support::Color;
+
+inline constexpr Color kSupportedColor{196, 212, 32};
+inline constexpr Color kBridgedColor{0, 140, 255};
+inline constexpr Color kRimColor{24, 16, 12};
+inline constexpr Color kMaskOutlineColor{235, 235, 235};
+inline constexpr Color kTextColor{240, 240, 240};
+inline constexpr Color kWhite{255, 255, 255};
 
 /// Of one of several ropes, by its index; they begin again after nine.
-inline const cv::Scalar& rope_color(std::size_t rope) {
-  static const std::array<cv::Scalar, 9> colors{
-      cv::Scalar(196, 212, 32), {60, 160, 255},  {255, 130, 90},  {90, 230, 90},  {230, 110, 230},
-      {60, 230, 245},           {255, 235, 150}, {130, 130, 255}, {190, 190, 190}};
-  return colors[rope % colors.size()];
+inline const Color& rope_color(std::size_t rope) {
+  static constexpr std::array<Color, 9> kColors{{{196, 212, 32},
+                                                 {60, 160, 255},
+                                                 {255, 130, 90},
+                                                 {90, 230, 90},
+                                                 {230, 110, 230},
+                                                 {60, 230, 245},
+                                                 {255, 235, 150},
+                                                 {130, 130, 255},
+                                                 {190, 190, 190}}};
+  return kColors[rope % kColors.size()];
 }
 
 /// Sizes in pixels of the picture; they grow with it.
 struct OverlayStyle {
   explicit OverlayStyle(int picture_width_px)
       : scale(std::max(0.75F, static_cast<float>(picture_width_px) / 640.0F)),
-        line_px(rounded(2.6F * scale)),
-        rim_px(rounded(1.0F * scale)),
-        marker_radius_px(rounded(8.5F * scale)),
-        outline_px(rounded(0.6F * scale)),
-        text_scale(0.43F * std::pow(scale, 0.75F)) {}
+        line_px(2.6F * (1 + scale)),
+        rim_px(std::max(1.0F, scale)),
+        marker_radius_px(8.5F * scale),
+        outline_px(std::max(1.0F, 0.6F * scale)),
+        on_markers{9.5F * scale, 1.3F * scale},
+        in_legend{9.0F * std::pow(scale, 0.75F), 1.05F * std::pow(scale, 0.75F)} {}
 
-  static int rounded(float size_px) { return std::max(1, static_cast<int>(std::lround(size_px))); }
+  /// Of the curve with the rim on its two sides.
+  [[nodiscard]] float rimmed_px() const { return line_px + 2 * rim_px; }
 
   float scale;
-  int line_px;
-  int rim_px;
-  int marker_radius_px;
-  int outline_px;
-  float text_scale;  ///< of the legend: it may grow more slowly than the picture
+  float line_px;
+  float rim_px;
+  float marker_radius_px;
+  float outline_px;
+  Lettering on_markers;
+  Lettering in_legend;  ///< it may grow more slowly than the picture
 };
 
 }  // namespace flowdlo::tools

@@ -9,12 +9,12 @@ namespace {
 
 constexpr double kLast = kNodes - 1;
 
-float cross(const cv::Point2f& a, const cv::Point2f& b) { return a.x * b.y - a.y * b.x; }
+float cross(const Spot& a, const Spot& b) { return a.x * b.y - a.y * b.x; }
 
 }  // namespace
 
 ProjectedCurve::ProjectedCurve(const Centerline& nodes, const Intrinsics& camera, float zoom) {
-  constexpr float kFarOutside_px = 1.0e5F;  // keeps the drawing's fixed-point numbers in range
+  constexpr float kFarOutside_px = 1.0e5F;  // keeps the pen's fixed-point numbers in range
   for (std::size_t j = 0; j < nodes.size(); ++j) {
     const auto& [x, y, z] = nodes[j];
     // The centre of the top left pixel is (0, 0) in the camera and (zoom - 1) / 2 in the picture.
@@ -34,17 +34,17 @@ ProjectedCurve::ProjectedCurve(const Centerline& nodes, const Intrinsics& camera
   }
 }
 
-cv::Point2f ProjectedCurve::at(double position) const {
+Spot ProjectedCurve::at(double position) const {
   const auto before = static_cast<std::size_t>(std::clamp(position, 0.0, kLast));
   if (before + 1 >= nodes_px_.size()) return nodes_px_.back();
   const auto fraction = static_cast<float>(position - static_cast<double>(before));
   return nodes_px_[before] + fraction * (nodes_px_[before + 1] - nodes_px_[before]);
 }
 
-std::vector<cv::Point2f> ProjectedCurve::piece(double from, double to) const {
+std::vector<Spot> ProjectedCurve::piece(double from, double to) const {
   from = std::clamp(from, 0.0, kLast);
   to = std::clamp(to, from, kLast);
-  std::vector<cv::Point2f> points = {at(from)};
+  std::vector<Spot> points = {at(from)};
   for (auto j = static_cast<std::size_t>(from) + 1; static_cast<double>(j) < to; ++j) {
     points.push_back(nodes_px_[j]);
   }

@@ -2,11 +2,11 @@
 #pragma once
 
 #include <array>
-#include <opencv2/core/types.hpp>
 #include <vector>
 
 #include "flowdlo/centerline.hpp"
 #include "flowdlo/frame.hpp"
+#include "spot.hpp"
 
 namespace flowdlo::tools {
 
@@ -25,12 +25,12 @@ class ProjectedCurve {
   /// False when a node lies behind the camera or is not finite: then nothing can be drawn.
   [[nodiscard]] bool drawable() const { return drawable_; }
 
-  [[nodiscard]] const std::array<cv::Point2f, kNodes>& nodes_px() const { return nodes_px_; }
+  [[nodiscard]] const std::array<Spot, kNodes>& nodes_px() const { return nodes_px_; }
 
   [[nodiscard]] float length_px() const { return length_px_.back(); }
 
   /// The polyline from position `from` to `to`, both clamped to 0..63.
-  [[nodiscard]] std::vector<cv::Point2f> piece(double from, double to) const;
+  [[nodiscard]] std::vector<Spot> piece(double from, double to) const;
 
   /// The position `distance_px` further along the picture than `position`, clamped to 0..63.
   [[nodiscard]] double advanced(double position, float distance_px) const;
@@ -39,9 +39,9 @@ class ProjectedCurve {
   [[nodiscard]] std::vector<Crossing> crossings() const;
 
  private:
-  [[nodiscard]] cv::Point2f at(double position) const;
+  [[nodiscard]] Spot at(double position) const;
 
-  std::array<cv::Point2f, kNodes> nodes_px_{};
+  std::array<Spot, kNodes> nodes_px_{};
   std::array<float, kNodes> depth_m_{};
   std::array<float, kNodes> length_px_{};  ///< from the first node to each
   bool drawable_ = true;

@@ -12,10 +12,10 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <cmath>
 #include <csignal>
 #include <cstdint>
 #include <cstring>
-#include <opencv2/imgproc.hpp>
 #include <optional>
 #include <string>
 #include <system_error>
@@ -23,11 +23,13 @@
 #include <vector>
 
 #include "files/shown_name.hpp"
+#include "image/resize.hpp"
 
 namespace flowdlo::tools {
 namespace {
 
 namespace fs = std::filesystem;
+using support::Picture;
 
 constexpr const char* kProgram = "ffmpeg";
 constexpr std::size_t kMostWords = 2000;  // of what ffmpeg says
@@ -98,24 +100,56 @@ Error without_ffmpeg(const std::string& why) {
                       why)};
 }
 
-cv::Size even(const cv::Size& size) {
+image::Size even(const image::Size& size) {
   return {size.width + size.width % 2, size.height + size.height % 2};
 }
 
-/// In the middle of a picture of that size, as large as it fits; a pixel more is black.
-cv::Mat fitted(const cv::Mat& picture, const cv::Size& size) {
-  if (picture.size() == size && picture.isContinuous()) return picture;
-  cv::Mat whole(size, CV_8UC3, cv::Scalar::all(0));
-  cv::Mat scaled = picture;
-  if (even(picture.size()) != size) {
-    const double zoom = std::min(static_cast<double>(size.width) / picture.cols,
-                                 static_cast<double>(size.height) / picture.rows);
-    const cv::Size fits(std::clamp(cvRound(zoom * picture.cols), 1, size.width),
-                        std::clamp(cvRound(zoom * picture.rows), 1, size.height));
-    cv::resize(picture, scaled, fits, 0, 0, cv::INTER_AREA);
+/// Each pixel the mean of what lies under it.
+Picture scaled(const Picture& picture, const image::Size& size) {
+  using Three = std::array<float, 3>;
+  image::Image<Three> values(picture.size());
+  for (int v = 0; v < picture.height(); ++v) {
+    std::transform(picture.row(v), picture.row(v) + picture.width(), values.row(v),
+                   [](const support::Color& color) {
+                     return Three{static_cast<float>(color[0]), static_cast<float>(color[1]),
+                                  static_cast<float>(color[2])};
+                   });
   }
-  scaled.copyTo(whole(cv::Rect((size.width - scaled.cols) / 2, (size.height - scaled.rows) / 2,
-                               scaled.cols, scaled.rows)));
+  const auto means = image::area_mean<Three>(values, size);
+  const auto byte_of = [](float value) {
+    return static_cast<std::uint8_t>(std::clamp(std::lrint(value), 0L, 255L));
+  };
+  Picture result(size);
+  for (int v = 0; v < result.height(); ++v) {
+    std::transform(means.row(v), means.row(v) + result.width(), result.row(v),
+                   [&](const Three& mean) {
+                     return support::Color{byte_of(mean[0]), byte_of(mean[1]), byte_of(mean[2])};
+                   });
+  }
+  return result;
+}
+
+/// In the middle of a picture of that size, as large as it fits; a pixel more is black.
+Picture fitted(const Picture& picture, const image::Size& size) {
+  const bool packed = picture.stride() == picture.width();
+  if (picture.size() == size && packed) return picture;
+  Picture fitting = picture;
+  if (even(picture.size()) != size) {
+    const double zoom = std::min(static_cast<double>(size.width) / picture.width(),
+                                 static_cast<double>(size.height) / picture.height());
+    const auto side = [zoom](int given, int most) {
+      return std::clamp(static_cast<int>(std::lrint(zoom * given)), 1, most);
+    };
+    fitting =
+        scaled(picture, {side(picture.width(), size.width), side(picture.height(), size.height)});
+  }
+  Picture whole(size, support::Color{});
+  Picture middle =
+      whole.part({(size.width - fitting.width()) / 2, (size.height - fitting.height()) / 2,
+                  fitting.width(), fitting.height()});
+  for (int v = 0; v < fitting.height(); ++v) {
+    std::copy_n(fitting.row(v), fitting.width(), middle.row(v));
+  }
   return whole;
 }
 
@@ -125,7 +159,7 @@ struct VideoFile::Encoder {
   fs::path file;
   fs::path partial;
   double frames_per_s = 0;
-  cv::Size size{};
+  image::Size size{};
   Descriptor pictures{};  // ffmpeg's standard input
   Descriptor words{};     // what it prints
   pid_t process = -1;
@@ -151,8 +185,8 @@ struct VideoFile::Encoder {
   }
 
   [[nodiscard]] Result<void> make_partial();
-  void begin(const cv::Size& first);
-  void send(const cv::Mat& picture);
+  void begin(const image::Size& first);
+  void send(const Picture& picture);
   [[nodiscard]] Result<void> finish();
 };
 
@@ -169,7 +203,7 @@ Result<void> VideoFile::Encoder::make_partial() {
   return {};
 }
 
-void VideoFile::Encoder::begin(const cv::Size& first) {
+void VideoFile::Encoder::begin(const image::Size& first) {
   size = even(first);
   std::array<int, 2> ends{-1, -1};
   if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0) {
@@ -207,9 +241,9 @@ void VideoFile::Encoder::begin(const cv::Size& first) {
 }
 
 /// Through a socket, for a pipe that nobody reads any more would end the process.
-void VideoFile::Encoder::send(const cv::Mat& picture) {
-  const auto* bytes = picture.ptr<char>();
-  std::size_t left = picture.total() * picture.elemSize();
+void VideoFile::Encoder::send(const Picture& picture) {
+  const auto* bytes = reinterpret_cast<const char*>(picture.data());
+  std::size_t left = picture.total() * sizeof(support::Color);
   while (left > 0) {
     const auto sent = ::send(pictures.number(), bytes, left, MSG_NOSIGNAL);
     if (sent < 0 && errno == EINTR) continue;
@@ -258,7 +292,7 @@ Result<VideoFile> VideoFile::open(const fs::path& file, double frames_per_s) {
   return VideoFile(std::move(encoder));
 }
 
-void VideoFile::add(const cv::Mat& picture) {
+void VideoFile::add(const Picture& picture) {
   if (encoder_->fault || picture.empty()) return;
   if (encoder_->process < 0) encoder_->begin(picture.size());
   if (!encoder_->fault) encoder_->send(fitted(picture, encoder_->size));

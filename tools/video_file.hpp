@@ -3,9 +3,9 @@
 
 #include <filesystem>
 #include <memory>
-#include <opencv2/core/mat.hpp>
 
 #include "flowdlo/result.hpp"
+#include "picture.hpp"
 
 namespace flowdlo::tools {
 
@@ -15,9 +15,9 @@ class VideoFile {
   [[nodiscard]] static Result<VideoFile> open(const std::filesystem::path& file,
                                               double frames_per_s);
 
-  /// The next picture, 8 bits BGR. The first one's size is the video's, by one pixel more where a
+  /// The next picture. The first one's size is the video's, by one pixel more where a
   /// side is odd; others are fitted into it. What fails is said by finish().
-  void add(const cv::Mat& picture);
+  void add(const support::Picture& picture);
 
   /// The file is there from now on, in place of one of its name. Fails with kIo, with what ffmpeg
   /// said, and where no picture came: then a file of that name is left as it was. Once.

@@ -1,6 +1,7 @@
 #include "recording/jpeg.hpp"
 
-#include <opencv2/imgproc.hpp>
+#include <cstddef>
+#include <utility>
 
 #include "jpeg_error_jump.hpp"
 // after jpeglib.h
@@ -47,12 +48,12 @@ struct Decoder {
     return jpeg_read_header(&state, TRUE) == JPEG_HEADER_OK;
   }
 
-  bool read_pixels(cv::Mat& image, J_COLOR_SPACE colors) {
+  bool read_pixels(std::uint8_t* first, std::ptrdiff_t stride_bytes, J_COLOR_SPACE colors) {
     if (setjmp(handler.back) != 0) return false;
     state.out_color_space = colors;
     jpeg_start_decompress(&state);
     while (state.output_scanline < state.output_height) {
-      JSAMPROW row = image.ptr(static_cast<int>(state.output_scanline));
+      JSAMPROW row = first + state.output_scanline * stride_bytes;
       jpeg_read_scanlines(&state, &row, 1);
     }
     jpeg_finish_decompress(&state);
@@ -60,19 +61,34 @@ struct Decoder {
   }
 };
 
-}  // namespace
-
-cv::Mat decode_jpeg(std::span<const std::uint8_t> bytes, JpegColors colors, int most_px) {
+template <class Pixel>
+image::Image<Pixel> decoded(std::span<const std::uint8_t> bytes, int most_px,
+                            J_COLOR_SPACE colors) {
   Decoder decoder;
   if (bytes.empty() || !decoder.read_header(bytes)) return {};
   const auto most = static_cast<JDIMENSION>(most_px);
   if (decoder.state.image_width > most || decoder.state.image_height > most) return {};
-  const bool grey = colors == JpegColors::kGrey;
-  cv::Mat image(static_cast<int>(decoder.state.image_height),
-                static_cast<int>(decoder.state.image_width), grey ? CV_8UC1 : CV_8UC3);
-  if (!decoder.read_pixels(image, grey ? JCS_GRAYSCALE : JCS_RGB)) return {};
-  if (!grey) cv::cvtColor(image, image, cv::COLOR_RGB2BGR);
+  image::Image<Pixel> image(
+      {static_cast<int>(decoder.state.image_width), static_cast<int>(decoder.state.image_height)});
+  auto* const first = reinterpret_cast<std::uint8_t*>(image.data());
+  const auto stride_bytes = image.stride() * static_cast<std::ptrdiff_t>(sizeof(Pixel));
+  if (!decoder.read_pixels(first, stride_bytes, colors)) return {};
   return image;
+}
+
+}  // namespace
+
+support::Picture decode_jpeg(std::span<const std::uint8_t> bytes, int most_px) {
+  auto picture = decoded<support::Color>(bytes, most_px, JCS_RGB);
+  for (std::size_t i = 0; i < picture.total(); ++i) {
+    support::Color& color = picture.data()[i];
+    std::swap(color[0], color[2]);
+  }
+  return picture;
+}
+
+image::Image<std::uint8_t> decode_grey_jpeg(std::span<const std::uint8_t> bytes, int most_px) {
+  return decoded<std::uint8_t>(bytes, most_px, JCS_GRAYSCALE);
 }
 
 }  // namespace flowdlo::recording

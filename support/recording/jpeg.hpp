@@ -2,16 +2,18 @@
 #pragma once
 
 #include <cstdint>
-#include <opencv2/core/mat.hpp>
 #include <span>
+
+#include "picture.hpp"
 
 namespace flowdlo::recording {
 
-enum class JpegColors { kBgr, kGrey };
+/// Of at most `most_px` a side, as it lies in the file: an orientation noted beside it is not
+/// followed. Empty where `bytes` are no such image, or a damaged one.
+[[nodiscard]] support::Picture decode_jpeg(std::span<const std::uint8_t> bytes, int most_px);
 
-/// 8 bits, of at most `most_px` a side, as it lies in the file: an orientation noted beside it is
-/// not followed. Empty where `bytes` are no such image, or a damaged one.
-[[nodiscard]] cv::Mat decode_jpeg(std::span<const std::uint8_t> bytes, JpegColors colors,
-                                  int most_px);
+/// The same of its greys alone.
+[[nodiscard]] image::Image<std::uint8_t> decode_grey_jpeg(std::span<const std::uint8_t> bytes,
+                                                          int most_px);
 
 }  // namespace flowdlo::recording

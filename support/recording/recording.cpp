@@ -5,13 +5,13 @@
 #include <cmath>
 #include <limits>
 #include <mutex>
-#include <opencv2/core.hpp>
 #include <utility>
 #include <vector>
 
 #include "frame/faults.hpp"
 #include "recording/bag.hpp"
 #include "recording/bag_image.hpp"
+#include "recording/hsv.hpp"
 #include "recording/matched_sets.hpp"
 #include "recording/rectification.hpp"
 #include "recording/tracks.hpp"
@@ -40,11 +40,6 @@ Error no_frames(const Bag& bag, const Tracks& tracks, const std::vector<MatchedS
                       "name other topics",
                       bag.path().string(), options.sync_tolerance_ms, counted(tracks),
                       largest_gap_ms(loose, tracks))};
-}
-
-std::vector<std::uint8_t> bytes_of(const cv::Mat& image) {
-  const cv::Mat packed = image.isContinuous() ? image : image.clone();
-  return {packed.datastart, packed.dataend};
 }
 
 }  // namespace
@@ -97,15 +92,15 @@ struct Recording::Impl {
 
   /// The pixels as the bag has them; images that are not in use stay empty.
   struct Images {
-    cv::Mat depth_m;
-    cv::Mat color;
-    cv::Mat mask;
+    image::Image<float> depth_m;
+    support::Picture color;
+    image::Mask mask;
   };
 
   [[nodiscard]] Result<Images> decode(const Messages& messages, const MatchedSet& set) const {
     Images images;
     frame::Faults faults;
-    const auto take = [&](Result<cv::Mat> image, cv::Mat& to) {
+    const auto take = [&](auto image, auto& to) {
       if (image) {
         to = *image;
       } else {
@@ -123,14 +118,14 @@ struct Recording::Impl {
     return images;
   }
 
-  void check_size(const cv::Mat& image, const Track& track, std::size_t message, cv::Size size,
-                  frame::Faults& faults) const {
-    if (image.empty() || image.size() == size) return;
+  void check_size(const image::Size& got, const Track& track, std::size_t message,
+                  const image::Size& size, frame::Faults& faults) const {
+    if (got.empty() || got == size) return;
     faults.bad_input(
         fmt::format("{}: expected {} x {} px as in the camera info, got {} x {}; depth, "
                     "colour and mask have to be aligned to one camera, whose info "
                     "--camera-topic names",
-                    who(track, message), size.width, size.height, image.cols, image.rows));
+                    who(track, message), size.width, size.height, got.width, got.height));
   }
 
   [[nodiscard]] Result<FrameFolder> frame(const MatchedSet& set, const std::string& name) const {
@@ -141,25 +136,27 @@ struct Recording::Impl {
     auto images = decode(*messages, set);
     if (!images) return images.error();
     frame::Faults faults;
-    check_size(images->depth_m, tracks.depth, set.depth, lens->size(), faults);
-    check_size(images->color, tracks.color, set.color, lens->size(), faults);
-    check_size(images->mask, tracks.mask, set.mask, lens->size(), faults);
+    check_size(images->depth_m.size(), tracks.depth, set.depth, lens->size(), faults);
+    check_size(images->color.size(), tracks.color, set.color, lens->size(), faults);
+    check_size(images->mask.size(), tracks.mask, set.mask, lens->size(), faults);
     if (!faults.empty()) return faults.error();
-    if (options
-            .hsv) {  // of the colours as they were seen: interpolated ones belong to neither side
+    // Of the colours as they were seen: interpolated ones belong to neither side.
+    if (options.hsv) {
       const auto& h = *options.hsv;
       images->mask = hsv_mask(images->color, {{h[0], h[1], h[2]}, {h[3], h[4], h[5]}});
     }
-    const cv::Mat depth_m = lens->nearest(images->depth_m);
-    const auto* begin = depth_m.ptr<float>();
+    const auto depth_m = lens->nearest(images->depth_m);
+    const auto mask = lens->nearest(images->mask);
+    const auto color = images->color.empty() ? images->color : lens->color(images->color);
     FrameFolder folder;
     folder.name = name;
-    folder.width = depth_m.cols;
-    folder.height = depth_m.rows;
+    folder.width = depth_m.width();
+    folder.height = depth_m.height();
     folder.intrinsics = lens->intrinsics();
-    folder.depth_m.assign(begin, begin + depth_m.total());
-    folder.mask = bytes_of(lens->nearest(images->mask));
-    if (!images->color.empty()) folder.color_bgr = bytes_of(lens->color(images->color));
+    folder.depth_m.assign(depth_m.data(), depth_m.data() + depth_m.total());
+    folder.mask.assign(mask.data(), mask.data() + mask.total());
+    const auto* const bytes = reinterpret_cast<const std::uint8_t*>(color.data());
+    folder.color_bgr.assign(bytes, bytes + sizeof(support::Color) * color.total());
     return folder;
   }
 

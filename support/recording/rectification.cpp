@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <opencv2/imgproc.hpp>
 
 #include "frame/limits.hpp"
 
@@ -42,8 +41,13 @@ Result<Lens> lens_of(const CameraMessage& camera, const std::string& who) {
                   who, camera.model, count)};
 }
 
+struct Drawn {
+  double x = 0;
+  double y = 0;
+};
+
 // Where the lens draws the ray (x, y, 1).
-cv::Point2d drawn(Lens lens, const Coefficients& c, double x, double y) {
+Drawn drawn(Lens lens, const Coefficients& c, double x, double y) {
   const double r2 = x * x + y * y;
   if (lens == Lens::kFishEye) {
     const double r = std::sqrt(r2);
@@ -85,6 +89,54 @@ Result<void> check(const CameraMessage& camera, const std::string& who) {
   return {};
 }
 
+/// Whether a place lies so near to an image that a pixel of it counts there; no number does not.
+bool touches(const Rectification::Place& at, const image::Size& size) {
+  return at.u > -1 && at.u < static_cast<float>(size.width) && at.v > -1 &&
+         at.v < static_cast<float>(size.height);
+}
+
+support::Color bilinear(const support::Picture& image, const Rectification::Place& at) {
+  const float left = std::floor(at.u);
+  const float top = std::floor(at.v);
+  const float right_share = at.u - left;
+  const float lower_share = at.v - top;
+  const image::Rect whole = image::all_of(image.size());
+  std::array<float, 3> sums{};
+  for (int below = 0; below < 2; ++below) {
+    for (int beside = 0; beside < 2; ++beside) {
+      const image::Point p{static_cast<int>(left) + beside, static_cast<int>(top) + below};
+      if (!whole.contains(p)) continue;
+      const float share = (beside != 0 ? right_share : 1 - right_share) *
+                          (below != 0 ? lower_share : 1 - lower_share);
+      const support::Color& color = image.at(p);
+      for (std::size_t c = 0; c < 3; ++c) sums[c] += share * static_cast<float>(color[c]);
+    }
+  }
+  support::Color mean{};
+  for (std::size_t c = 0; c < 3; ++c) {
+    mean[c] = static_cast<std::uint8_t>(std::min(std::lrint(sums[c]), 255L));
+  }
+  return mean;
+}
+
+/// [h, w] of `map`: what `value_at` says of each place that touches `image`; elsewhere 0.
+template <class Pixel, class ValueAt>
+image::Image<Pixel> moved(const image::Image<Pixel>& image,
+                          const image::Image<Rectification::Place>& map, ValueAt value_at) {
+  image::Image<Pixel> result(map.size(), Pixel{});
+  for (std::size_t i = 0; i < result.total(); ++i) {
+    const Rectification::Place& at = map.data()[i];
+    if (touches(at, image.size())) result.data()[i] = value_at(image, at);
+  }
+  return result;
+}
+
+template <class Pixel>
+Pixel nearest_in(const image::Image<Pixel>& image, const Rectification::Place& at) {
+  const image::Point p{static_cast<int>(std::lrint(at.u)), static_cast<int>(std::lrint(at.v))};
+  return image::all_of(image.size()).contains(p) ? image.at(p) : Pixel{};
+}
+
 }  // namespace
 
 Result<Rectification> Rectification::create(const CameraMessage& camera, bool rectified,
@@ -104,31 +156,35 @@ Result<Rectification> Rectification::create(const CameraMessage& camera, bool re
   if (*lens == Lens::kPinhole) return result;
   Coefficients coefficients{};
   std::copy(camera.d.begin(), camera.d.end(), coefficients.begin());
-  result.map_.create(result.size_, CV_32FC2);
+  result.map_ = image::Image<Place>(result.size_);
   for (int v = 0; v < result.size_.height; ++v) {
     for (int u = 0; u < result.size_.width; ++u) {
       const auto at = drawn(*lens, coefficients, (u - k[2]) / k[0], (v - k[5]) / k[4]);
-      const cv::Point2d from(k[0] * at.x + k[2], k[4] * at.y + k[5]);
-      result.map_.at<cv::Vec2f>(v, u) = {static_cast<float>(from.x), static_cast<float>(from.y)};
-      const double shift = std::hypot(from.x - u, from.y - v);
+      const double from_u = k[0] * at.x + k[2];
+      const double from_v = k[4] * at.y + k[5];
+      result.map_.at(v, u) = {static_cast<float>(from_u), static_cast<float>(from_v)};
+      const double shift = std::hypot(from_u - u, from_v - v);
       result.largest_shift_px_ = std::max(result.largest_shift_px_, shift);
     }
   }
   return result;
 }
 
-cv::Mat Rectification::color(const cv::Mat& image) const {
-  if (map_.empty()) return image;
-  cv::Mat result;
-  cv::remap(image, result, map_, cv::noArray(), cv::INTER_LINEAR, cv::BORDER_CONSTANT);
-  return result;
+Rectification::Place Rectification::source(int u, int v) const {
+  if (map_.empty()) return {static_cast<float>(u), static_cast<float>(v)};
+  return map_.at(v, u);
 }
 
-cv::Mat Rectification::nearest(const cv::Mat& image) const {
-  if (map_.empty()) return image;
-  cv::Mat result;
-  cv::remap(image, result, map_, cv::noArray(), cv::INTER_NEAREST, cv::BORDER_CONSTANT);
-  return result;
+support::Picture Rectification::color(const support::Picture& image) const {
+  return map_.empty() ? image : moved(image, map_, bilinear);
+}
+
+image::Image<float> Rectification::nearest(const image::Image<float>& depth_m) const {
+  return map_.empty() ? depth_m : moved(depth_m, map_, nearest_in<float>);
+}
+
+image::Mask Rectification::nearest(const image::Mask& mask) const {
+  return map_.empty() ? mask : moved(mask, map_, nearest_in<std::uint8_t>);
 }
 
 }  // namespace flowdlo::recording

@@ -1,11 +1,11 @@
 // Rectification: from the image that a lens drew to that of the pinhole camera of Eq. (2.2).
 #pragma once
 
-#include <opencv2/core.hpp>
 #include <string>
 
 #include "flowdlo/frame.hpp"
 #include "flowdlo/result.hpp"
+#include "picture.hpp"
 #include "recording/bag.hpp"
 
 namespace flowdlo::recording {
@@ -20,21 +20,30 @@ class Rectification {
 
   /// Of the images that color() and nearest() give: K stays, only D is undone.
   [[nodiscard]] const Intrinsics& intrinsics() const { return intrinsics_; }
-  [[nodiscard]] cv::Size size() const { return size_; }
+  [[nodiscard]] const image::Size& size() const { return size_; }
   /// Pixels between where a point is drawn and where it belongs, at most; 0: nothing is moved.
   [[nodiscard]] double largest_shift_px() const { return largest_shift_px_; }
 
+  /// A place in the image that the lens drew.
+  struct Place {
+    float u = 0;
+    float v = 0;
+  };
+  /// Where the pixel in column `u` of row `v` comes from.
+  [[nodiscard]] Place source(int u, int v) const;
+
   /// Interpolated; black outside.
-  [[nodiscard]] cv::Mat color(const cv::Mat& image) const;
+  [[nodiscard]] support::Picture color(const support::Picture& image) const;
   /// Of the nearest pixel, for depths and masks: a mean of two depths lies on neither surface. 0
   /// outside.
-  [[nodiscard]] cv::Mat nearest(const cv::Mat& image) const;
+  [[nodiscard]] image::Image<float> nearest(const image::Image<float>& depth_m) const;
+  [[nodiscard]] image::Mask nearest(const image::Mask& mask) const;
 
  private:
   Intrinsics intrinsics_;
-  cv::Size size_;
+  image::Size size_;
   double largest_shift_px_ = 0;
-  cv::Mat map_;  // [h, w] where a pixel comes from; empty: from itself
+  image::Image<Place> map_;  // [h, w] where a pixel comes from; empty: from itself
 };
 
 }  // namespace flowdlo::recording

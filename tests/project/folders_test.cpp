@@ -1,5 +1,7 @@
 // Which of the folders around the engine sees which: support/ is a leaf, tools/ and lab/ stand on
-// it, and neither of these sees the other, in its #includes or in what it links.
+// it, and neither of these sees the other, in its #includes or in what it links. support/ and
+// tools/ see nothing of OpenCV either, which brings half of what a bare system would have to
+// install.
 #include <gmock/gmock.h>
 
 #include <filesystem>
@@ -142,6 +144,19 @@ TEST_P(FoldersAroundTheEngine, LinkOnlyWhatTheySee) {
     EXPECT_THAT(lists, Not(HasSubstr("/" + folder + "\""))) << "a path to " << folder;
     for (const auto& target : targets_of(lists_of(folder))) {
       EXPECT_THAT(used, Not(Contains(target))) << "a target of " << folder;
+    }
+  }
+}
+
+TEST(FoldersOfTheCommand, HaveNothingOfOpenCV) {
+  for (const std::string folder : {"support", "tools"}) {
+    EXPECT_THAT(lists_of(folder), Not(testing::ContainsRegex("[oO]pen[cC][vV]|mat/"))) << folder;
+  }
+  for (const auto& path : project_files()) {
+    if (folder_of(path) != "support" && folder_of(path) != "tools") continue;
+    for (const auto& include : includes_of(read(path))) {
+      EXPECT_FALSE(include.target.starts_with("opencv") || include.target.starts_with("mat/"))
+          << path << ": " << include.target;
     }
   }
 }

@@ -49,18 +49,25 @@ std::vector<std::uint8_t> progressive_jpeg(int bands) {
 }
 
 TEST(Jpeg, ProgressiveImageIsRead) {
-  const auto image = decode_jpeg(progressive_jpeg(8), JpegColors::kGrey, kSide_px);
-  ASSERT_EQ(image.size(), cv::Size(kSide_px, kSide_px));
-  EXPECT_NEAR(image.at<std::uint8_t>(10, 20), 60, 4);
+  const auto image = decode_grey_jpeg(progressive_jpeg(8), kSide_px);
+  ASSERT_EQ(image.size(), (image::Size{kSide_px, kSide_px}));
+  EXPECT_NEAR(image.at(10, 20), 60, 4);
+}
+
+TEST(Jpeg, GreyImageIsAColouredOneOfEqualChannels) {
+  const auto grey = decode_grey_jpeg(progressive_jpeg(8), kSide_px);
+  const auto picture = decode_jpeg(progressive_jpeg(8), kSide_px);
+  ASSERT_EQ(picture.size(), grey.size());
+  EXPECT_EQ(picture.at(10, 20), support::color_of(grey.at(10, 20)));
 }
 
 // Each pass goes over the whole image: 64 kB of them would take minutes.
 TEST(Jpeg, MorePassesThanAnyEncoderWritesAreRefused) {
-  EXPECT_TRUE(decode_jpeg(progressive_jpeg(63), JpegColors::kGrey, kSide_px).empty());
+  EXPECT_TRUE(decode_grey_jpeg(progressive_jpeg(63), kSide_px).empty());
 }
 
 TEST(Jpeg, SideBeyondTheLimitIsRefused) {
-  EXPECT_TRUE(decode_jpeg(progressive_jpeg(8), JpegColors::kGrey, kSide_px - 1).empty());
+  EXPECT_TRUE(decode_grey_jpeg(progressive_jpeg(8), kSide_px - 1).empty());
 }
 
 }  // namespace

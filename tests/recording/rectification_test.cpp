@@ -3,6 +3,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <opencv2/imgproc.hpp>
+
+#include "mat/mat_image.hpp"
+
 namespace flowdlo::recording {
 namespace {
 
@@ -30,17 +34,6 @@ std::string refusal(const CameraMessage& message) {
   return result ? "" : result.error().message;
 }
 
-// An image whose pixels say where they are.
-cv::Mat places() {
-  cv::Mat image(240, 320, CV_32FC2);
-  for (int v = 0; v < image.rows; ++v) {
-    for (int u = 0; u < image.cols; ++u) {
-      image.at<cv::Vec2f>(v, u) = {static_cast<float>(u), static_cast<float>(v)};
-    }
-  }
-  return image;
-}
-
 struct Moved {
   int u;
   int v;
@@ -50,12 +43,31 @@ struct Moved {
 
 // The figures are those of projectPoints of OpenCV 4.6.
 void expect_moved(const Rectification& lens, const std::vector<Moved>& points) {
-  const cv::Mat image = lens.color(places());
   for (const Moved& point : points) {
-    const auto from = image.at<cv::Vec2f>(point.v, point.u);
-    EXPECT_NEAR(from[0], point.from_u, 0.04) << point.u << ' ' << point.v;  // remap counts in 1/32
-    EXPECT_NEAR(from[1], point.from_v, 0.04) << point.u << ' ' << point.v;
+    const auto from = lens.source(point.u, point.v);
+    EXPECT_NEAR(from.u, point.from_u, 1e-4) << point.u << ' ' << point.v;
+    EXPECT_NEAR(from.v, point.from_v, 1e-4) << point.u << ' ' << point.v;
   }
+}
+
+/// Soft noise; OpenCV's remap by the lens' own places.
+support::Picture soft_noise() {
+  cv::Mat image(240, 320, CV_8UC3);
+  cv::RNG random(5);
+  random.fill(image, cv::RNG::UNIFORM, 0, 256);
+  cv::GaussianBlur(image, image, {0, 0}, 2);
+  return mat::image_of<support::Color>(image);
+}
+cv::Mat remapped(const cv::Mat& image, const Rectification& lens, int interpolation) {
+  cv::Mat map(240, 320, CV_32FC2);
+  for (int v = 0; v < map.rows; ++v) {
+    for (int u = 0; u < map.cols; ++u) {
+      map.at<cv::Vec2f>(v, u) = {lens.source(u, v).u, lens.source(u, v).v};
+    }
+  }
+  cv::Mat result;
+  cv::remap(image, result, map, cv::noArray(), interpolation, cv::BORDER_CONSTANT);
+  return result;
 }
 
 TEST(Rectification, UndoesBrownsDistortion) {
@@ -83,24 +95,37 @@ TEST(Rectification, UndoesAFishEye) {
                 {280, 182, 272.474367, 178.111756}});
 }
 
-TEST(Rectification, DepthIsTakenAndNotMixed) {
-  const auto lens = create(camera("plumb_bob", {-0.25, 0.08, 0, 0, 0}));
-  cv::Mat depth_m(240, 320, CV_32FC1, cv::Scalar(0.5));
-  depth_m.colRange(0, 100).setTo(0.9);
-  const cv::Mat result = lens.nearest(depth_m);
-  for (int v = 0; v < result.rows; ++v) {
-    for (int u = 0; u < result.cols; ++u) {
-      const float value = result.at<float>(v, u);
-      EXPECT_TRUE(value == 0.5F || value == 0.9F || value == 0.0F) << value;
-    }
+// OpenCV's remap counts in 1 / 32 of a pixel.
+TEST(Rectification, ColourIsInterpolatedAsOpenCVDoes) {
+  for (const double k1 : {-0.25, 0.3}) {  // from beyond the image, and from within alone
+    const auto lens = create(camera("plumb_bob", {k1, 0.08, 0.002, -0.0015, -0.01}));
+    const auto image = soft_noise();
+    const auto theirs = remapped(mat::mat_over(image), lens, cv::INTER_LINEAR);
+    EXPECT_LE(cv::norm(mat::mat_over(lens.color(image)), theirs, cv::NORM_INF), 8) << k1;
+    EXPECT_LT(cv::norm(mat::mat_over(lens.color(image)), theirs, cv::NORM_L1), 0.6 * 3 * 320 * 240)
+        << k1;
   }
+}
+
+TEST(Rectification, DepthIsTakenAsOpenCVDoesAndNotMixed) {
+  const auto lens = create(camera("plumb_bob", {-0.25, 0.08, 0, 0, 0}));
+  cv::Mat depth_m(240, 320, CV_32FC1);
+  cv::RNG(9).fill(depth_m, cv::RNG::UNIFORM, 0.3, 1.5);
+  const auto result = lens.nearest(mat::image_of<float>(depth_m));
+  const auto theirs = remapped(depth_m, lens, cv::INTER_NEAREST);
+  EXPECT_EQ(cv::norm(mat::mat_over(result), theirs, cv::NORM_INF), 0);
+  const cv::Mat mask = depth_m > 0.8;
+  EXPECT_EQ(cv::norm(mat::mat_over(lens.nearest(mat::image_of<std::uint8_t>(mask))),
+                     remapped(mask, lens, cv::INTER_NEAREST), cv::NORM_INF),
+            0);
 }
 
 TEST(Rectification, WithoutDistortionChangesNoBit) {
   for (const auto& message : {camera("plumb_bob", {0, 0, 0, 0, 0}), camera("", {})}) {
     const auto lens = create(message);
+    const auto image = soft_noise();
     EXPECT_EQ(lens.largest_shift_px(), 0);
-    EXPECT_EQ(cv::norm(lens.color(places()), places(), cv::NORM_INF), 0);
+    EXPECT_EQ(cv::norm(mat::mat_over(lens.color(image)), mat::mat_over(image), cv::NORM_INF), 0);
     EXPECT_FLOAT_EQ(lens.intrinsics().fx, 300);
     EXPECT_FLOAT_EQ(lens.intrinsics().cy, 120);
   }

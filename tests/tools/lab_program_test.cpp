@@ -71,10 +71,11 @@ TEST(LabProgram, ThatIsMissingIsNamedWithWhatToBuild) {
     const auto outcome = run_program(scratch.path(), program, {command, "anything"});
     EXPECT_EQ(outcome.exit_code, 1);
     EXPECT_EQ(outcome.out, "");
-    EXPECT_THAT(outcome.err,
-                AllOf(HasSubstr("flowdlo " + command + ": expected the program flowdlo-lab at " +
-                                program.parent_path().string()),
-                      HasSubstr("build the target flowdlo_lab_cli")));
+    EXPECT_THAT(
+        outcome.err,
+        AllOf(HasSubstr("flowdlo " + command + ": expected the program flowdlo-lab at " +
+                        program.parent_path().string()),
+              HasSubstr("build the target flowdlo_lab_cli"), HasSubstr("scripts/install eval")));
   }
 }
 

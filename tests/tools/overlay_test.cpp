@@ -2,9 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
-#include <opencv2/core.hpp>
 #include <vector>
 
 #include "overlay_style.hpp"
@@ -29,25 +30,34 @@ struct Scene {
   }
 };
 
-int pixels_near(const cv::Mat& picture, const cv::Scalar& color, const cv::Rect& window) {
-  cv::Mat hits;
-  cv::inRange(picture(window), color - cv::Scalar::all(12), color + cv::Scalar::all(12), hits);
-  return cv::countNonZero(hits);
+int pixels_near(const support::Picture& picture, const Color& color, const image::Rect& window) {
+  int count = 0;
+  for (int v = window.y; v < window.y + window.height; ++v) {
+    for (int u = window.x; u < window.x + window.width; ++u) {
+      const Color& pixel = picture.at(v, u);
+      count += std::equal(pixel.begin(), pixel.end(), color.begin(),
+                          [](int a, int b) { return std::abs(a - b) <= 12; })
+                   ? 1
+                   : 0;
+    }
+  }
+  return count;
 }
+
+constexpr image::Size kFrame{640, 480};
 
 TEST(Overlay, HasTheSizeOfTheFrame) {
   const Scene scene;
   const auto picture = draw_overlay(scene.frame(), test::sample_estimate(), "cpu");
-  EXPECT_EQ(picture.size(), cv::Size(640, 480));
-  EXPECT_EQ(picture.type(), CV_8UC3);
+  EXPECT_EQ(picture.size(), kFrame);
 }
 
 TEST(Overlay, CurveIsColouredBySupport) {
   const Scene scene;
   const auto picture = draw_overlay(scene.frame(), test::sample_estimate(), "cpu");
   // Nodes 20 to 29 are bridged: columns 227 to 293; the others supported.
-  const cv::Rect bridged(235, 230, 50, 20);
-  const cv::Rect supported(320, 230, 150, 20);
+  const image::Rect bridged{235, 230, 50, 20};
+  const image::Rect supported{320, 230, 150, 20};
   EXPECT_GT(pixels_near(picture, kBridgedColor, bridged), 50);
   EXPECT_EQ(pixels_near(picture, kSupportedColor, bridged), 0);
   EXPECT_GT(pixels_near(picture, kSupportedColor, supported), 150);
@@ -71,11 +81,11 @@ TEST(Overlay, TheStrandFieldColoursTheImageWhereItSeesAnAxis) {
   }
   const auto plain = draw_overlay(scene.frame(), Estimate{}, "cpu");
   const auto tinted = draw_overlay(scene.frame(), Estimate{}, "cpu", &strands);
-  const auto at = [&](int u, int v) { return tinted.at<cv::Vec3b>(v, u); };
-  EXPECT_EQ(at(300, 345), cv::Vec3b(0, 128, 255));
-  EXPECT_EQ(at(300, 331), cv::Vec3b(255, 255, 255));
+  const auto at = [&](int u, int v) { return tinted.at(v, u); };
+  EXPECT_EQ(at(300, 345), (Color{0, 128, 255}));
+  EXPECT_EQ(at(300, 331), kWhite);
   for (const auto& [u, v] : {std::pair{292, 340}, {308, 340}, {300, 328}, {300, 352}}) {
-    EXPECT_EQ(at(u, v), plain.at<cv::Vec3b>(v, u)) << u << ", " << v;
+    EXPECT_EQ(at(u, v), plain.at(v, u)) << u << ", " << v;
   }
   strands.first_u = 639;  // what reaches beyond the frame is left out
   EXPECT_EQ(draw_overlay(scene.frame(), Estimate{}, "cpu", &strands).size(), plain.size());
@@ -84,14 +94,14 @@ TEST(Overlay, TheStrandFieldColoursTheImageWhereItSeesAnAxis) {
 TEST(Overlay, EndsAreMarkedBeyondTheTips) {
   const Scene scene;
   const auto picture = draw_overlay(scene.frame(), test::sample_estimate(), "cpu");
-  EXPECT_GT(pixels_near(picture, cv::Scalar::all(255), {52, 225, 25, 30}), 60) << "A, white";
+  EXPECT_GT(pixels_near(picture, kWhite, {52, 225, 25, 30}), 60) << "A, white";
   EXPECT_GT(pixels_near(picture, kRimColor, {548, 225, 25, 30}), 60) << "B, dark";
 }
 
 TEST(Overlay, MaskIsOutlinedAlongItsBorderAndNowhereElse) {
   const Scene scene;
   const auto picture = draw_overlay(scene.frame(), Estimate{}, "cpu");
-  const auto at = [&](int u, int v) { return picture.at<cv::Vec3b>(v, u)[0]; };
+  const auto at = [&](int u, int v) { return picture.at(v, u)[0]; };
   const auto plain = at(300, 120);
   EXPECT_GT(at(300, 235), plain + 40) << "the topmost row of the mask";
   EXPECT_GT(at(300, 245), plain + 40) << "the lowest";
@@ -110,7 +120,7 @@ TEST(Overlay, NearerStrandIsDrawnOverTheOther) {
         j < 32 ? Point3{0.2F * along, 0.0F, 0.5F} : Point3{0.0F, 0.2F * along, 0.4F};
     estimate.support[j] = j < 32 ? 1 : 0;
   }
-  const cv::Rect crossing(319, 239, 3, 3);
+  const image::Rect crossing{319, 239, 3, 3};
   const auto above = draw_overlay(scene.frame(), estimate, "cpu");
   EXPECT_EQ(pixels_near(above, kSupportedColor, crossing), 0);
   for (std::size_t j = 32; j < 64; ++j) estimate.nodes[j].z = 0.6F;
@@ -122,7 +132,7 @@ TEST(Overlay, IsDrawnOnTheMaskWhereThereIsNoColour) {
   Scene scene;
   scene.color_bgr.clear();
   const auto picture = draw_overlay(scene.frame(), test::sample_estimate(), "cpu");
-  EXPECT_EQ(picture.size(), cv::Size(640, 480));
+  EXPECT_EQ(picture.size(), kFrame);
   EXPECT_GT(pixels_near(picture, kSupportedColor, {320, 230, 150, 20}), 150);
 }
 
@@ -130,33 +140,33 @@ TEST(Overlay, OfASmallFrameIsAWholeMultipleOfIt) {
   const std::vector<float> depth_m(80 * 60, 0.5F);
   const std::vector<std::uint8_t> mask(80 * 60, 0);
   const Frame frame{80, 60, {100.0F, 100.0F, 39.5F, 29.5F}, depth_m, mask, {}};
-  EXPECT_EQ(draw_overlay(frame, test::sample_estimate(), "cpu").size(), cv::Size(480, 360));
+  EXPECT_EQ(draw_overlay(frame, test::sample_estimate(), "cpu").size(), (image::Size{480, 360}));
 }
 
 TEST(Overlay, OfOneColumnOfPixelsStaysSmall) {
   const std::vector<float> depth_m(4096, 0.5F);
   const std::vector<std::uint8_t> mask(4096, 255);
   const Frame frame{1, 4096, {100.0F, 100.0F, 0.0F, 0.0F}, depth_m, mask, {}};
-  EXPECT_EQ(draw_overlay(frame, test::sample_estimate(), "cpu").size(), cv::Size(1, 4096));
+  EXPECT_EQ(draw_overlay(frame, test::sample_estimate(), "cpu").size(), (image::Size{1, 4096}));
 }
 
 TEST(Overlay, CurvesThatCannotBeDrawnLeaveThePicture) {
   const Scene scene;
   auto estimate = test::sample_estimate();
   estimate.nodes[3].x = std::numeric_limits<float>::quiet_NaN();
-  EXPECT_EQ(draw_overlay(scene.frame(), estimate, "cpu").size(), cv::Size(640, 480));
+  EXPECT_EQ(draw_overlay(scene.frame(), estimate, "cpu").size(), kFrame);
   for (auto& node : estimate.nodes) node = {1.0e6F, -1.0e6F, 0.001F};
-  EXPECT_EQ(draw_overlay(scene.frame(), estimate, "cpu").size(), cv::Size(640, 480));
+  EXPECT_EQ(draw_overlay(scene.frame(), estimate, "cpu").size(), kFrame);
 }
 
 TEST(RopesOverlay, EachRopeHasItsColourAndTheUpperOneIsWhole) {
   const Scene scene;
   const auto picture = draw_overlay(scene.frame(), test::sample_ropes(), "cpu");
-  EXPECT_EQ(picture.size(), cv::Size(640, 480));
+  EXPECT_EQ(picture.size(), kFrame);
   EXPECT_GT(pixels_near(picture, rope_color(0), {330, 230, 150, 20}), 150);
   EXPECT_EQ(pixels_near(picture, rope_color(1), {330, 230, 150, 20}), 0);
   EXPECT_GT(pixels_near(picture, rope_color(1), {315, 300, 12, 80}), 100);
-  const cv::Rect crossing(317, 236, 7, 9);  // where both run
+  const image::Rect crossing{317, 236, 7, 9};  // where both run
   EXPECT_GT(pixels_near(picture, rope_color(1), crossing), 10);
   EXPECT_EQ(pixels_near(picture, rope_color(0), crossing), 0);
 }

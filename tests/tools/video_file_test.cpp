@@ -5,7 +5,6 @@
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
-#include <opencv2/core.hpp>
 #include <string>
 
 #include "frame/temporary_folder.hpp"
@@ -46,8 +45,8 @@ std::string middle_of(const fs::path& video, int frame) {
                     std::to_string(frame) + "),crop=2:2,format=rgb24\" -frames:v 1 -f rawvideo -");
 }
 
-cv::Mat plain(int width, int height, const cv::Scalar& bgr) {
-  return {height, width, CV_8UC3, bgr};
+support::Picture plain(int width, int height, const support::Color& color) {
+  return {{width, height}, color};
 }
 
 std::size_t entries_of(const fs::path& folder) {

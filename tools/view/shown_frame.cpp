@@ -7,12 +7,12 @@
 #include <cmath>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
-#include <opencv2/core/mat.hpp>
 #include <utility>
 
 #include "estimate_json.hpp"
-#include "mat/mat_png.hpp"
+#include "frame_picture.hpp"
 #include "overlay.hpp"
+#include "png_picture.hpp"
 
 namespace flowdlo::view {
 namespace {
@@ -125,27 +125,23 @@ Json cloud_of(const Frame& frame, bool of_rope, double most) {
   return points;
 }
 
-Result<std::string> png_of(const cv::Mat& picture) {
-  const auto bytes = mat::encode_png(picture);
+template <class Image>
+Result<std::string> png_of(const Image& image) {
+  const auto bytes = support::encode_png(image);
   if (!bytes) return bytes.error();
   return std::string(bytes->begin(), bytes->end());
 }
 
-/// Of 8 bits a channel; only read.
-cv::Mat view_of(const Frame& frame, std::span<const std::uint8_t> values, int type) {
-  return {frame.height, frame.width, type, const_cast<std::uint8_t*>(values.data())};
-}
-
 Result<ShownFrame> pictures_of(const Frame& frame) {
   ShownFrame shown;
-  auto mask = png_of(view_of(frame, frame.mask, CV_8UC1));
+  auto mask = png_of(tools::mask_of(frame));
   if (!mask) return mask.error();
   shown.mask = *std::move(mask);
   if (frame.color_bgr.empty()) {
     shown.image = shown.mask;
     return shown;
   }
-  auto image = png_of(view_of(frame, frame.color_bgr, CV_8UC3));
+  auto image = png_of(tools::colors_of(frame));
   if (!image) return image.error();
   shown.image = *std::move(image);
   return shown;
