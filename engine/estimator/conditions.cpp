@@ -71,23 +71,15 @@ Result<Conditions> gather(const Frame& frame, const ReadConfig& config, Timings&
     if (*seen) return conditions;
   }
   Stopwatch rest;
-  const auto read = traced != nullptr ? lift(*traced, frame, config, conditions)
-                                      : read_mask(frame, config, timings, conditions);
-  if (traced != nullptr) rest.lap(timings.prior_ms);
-  if (!read) return read.error();
-  return conditions;
-}
-
-Result<void> read_mask(const Frame& frame, const ReadConfig& config, Timings& timings,
-                       Conditions& conditions) {
-  Stopwatch stage;
-  auto paths = path::trace(frame, config.trace(conditions.cleaned));  // Sec. 3.3
-  stage.lap(timings.path_ms);
+  auto paths = traced != nullptr ? Result<path::Traversals>(*traced)
+                                 : path::trace(frame, config.trace(conditions.cleaned));  // Sec. 3.3
+  if (traced == nullptr) rest.lap(timings.path_ms);
   if (!paths) return paths.error();
   const auto lifted = lift(*std::move(paths), frame, config, conditions);
-  stage.lap(timings.prior_ms);
-  if (lifted) conditions.axes.reset();
-  return lifted;
+  rest.lap(timings.prior_ms);
+  if (!lifted) return lifted.error();
+  conditions.of_mask = traced == nullptr;
+  return conditions;
 }
 
 }  // namespace flowdlo::estimator

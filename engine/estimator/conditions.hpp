@@ -40,6 +40,7 @@ struct Conditions {
   std::shared_ptr<const path::Region> cleaned{};  ///< the frame's mask, where it is known; or null
   std::optional<field::Axes> axes{};  ///< of the strand field, which the paths run along; nothing:
                                       ///< they are the mask's, or were known already
+  bool of_mask = false;               ///< the paths are those of the mask alone
 };
 
 /// The first reading runs along `traced` where these paths are known already (else null), otherwise
@@ -50,10 +51,5 @@ struct Conditions {
 [[nodiscard]] Result<Conditions> gather(const Frame& frame, const ReadConfig& config,
                                         Timings& timings, const path::Traversals* traced = nullptr,
                                         const SeeAxes& see = {});
-
-/// Reads the mask, whatever `conditions` were read along: its paths, its hypotheses. Fills path_ms
-/// and prior_ms of `timings`. Fails as path::trace and lift_all do, and leaves `conditions` then.
-[[nodiscard]] Result<void> read_mask(const Frame& frame, const ReadConfig& config, Timings& timings,
-                                     Conditions& conditions);
 
 }  // namespace flowdlo::estimator

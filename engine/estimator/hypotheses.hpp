@@ -27,7 +27,7 @@ struct Hypothesis {
   int reading = 0;        ///< of the mask that brought it forth; 0: as given
   float votes = 0;        ///< [0, 1] share of the readings whose best runs here
   float odds = 0;         ///< [0, 1] mean over the readings of how likely each says it is
-  float seen_odds = 0;    ///< [0, 1] how likely the reading of the strand field says it is
+  float seen_odds = 0;    ///< [0, 1] how likely the closest look through the field says it is
 };
 
 /// Best `score` first, ties in the order of `paths`; never empty. Fails as the lift of the best

@@ -1,5 +1,5 @@
 // RopeReadings: the ropes of a frame as paths, from the strand field where it is asked and from the
-// mask alone where it is not; and which of them both readings have.
+// mask alone where it is not; and which of them both looks have.
 #pragma once
 
 #include <vector>
@@ -24,9 +24,10 @@ struct RopeReadings {
   std::vector<Witness> witness;  ///< [ropes]
 };
 
-/// The mask's ropes (`path::trace_ropes`), or, where the mask is not noise, and `see` shows axes
-/// and they make ropes, those of the axes: strands that the mask merges lie apart there. The mask's
-/// are their witness then. Expects a valid frame. Fails as path::trace_ropes does of the mask.
+/// Those of the axes that `see` shows, for strands that the mask merges lie apart there: by heed of
+/// a closer look (kCloser), whose ropes are their witness. The mask's (`path::trace_ropes`) where
+/// it is noise, or `see` shows nothing or no ropes. Expects a valid frame. Fails as
+/// path::trace_ropes does of the mask.
 [[nodiscard]] Result<RopeReadings> read_ropes(const Frame& frame, int ropes, const SeeAxes& see);
 
 /// Whether two paths are one rope's: from end to end, in either direction, never farther apart

@@ -14,22 +14,18 @@
 #include "gate/tube_score.hpp"
 #include "geometry/polyline.hpp"
 #include "guard/guarded.hpp"
-#include "path/eroded.hpp"
 #include "path/limits.hpp"
 #include "path/strand_reading.hpp"
 
 namespace flowdlo::estimator {
 namespace {
 
-constexpr std::size_t kOfEroded = 2;  // hypotheses of the eroded mask,
-constexpr std::size_t kOfField = 4;   // and of the strand field
-constexpr double kSamePlace = 2;      // rope radii between the mean nodes of one and the same
-constexpr double kOddsScore = 1;      // score that makes a hypothesis e times as likely
+constexpr std::size_t kOfOne = 4;  // hypotheses of a further reading
+constexpr double kSamePlace = 2;   // rope radii between the mean nodes of one and the same
+constexpr double kOddsScore = 1;   // score that makes a hypothesis e times as likely
 
-// Expected before any reading was timed, in doubt too much: what the eroded mask takes for each
-// millisecond of the mask's reading, mask and field for each pixel. The field's is twice the 4 us
-// of one core of a Sapphire Rapids.
-constexpr double kFirstReading = 2;
+// Expected for each pixel before any reading was timed, in doubt too much. The field's is twice the
+// 4 us of one core of a Sapphire Rapids.
 constexpr double kMaskPixel_ms = 0.004;
 constexpr double kFieldPixel_ms = 0.008;
 
@@ -118,17 +114,10 @@ void count_votes(const std::vector<Reading>& readings, double radius_m,
   }
 }
 
-/// Lets the reading of the strand field say the same.
-void count_seen_odds(const Reading& reading, double radius_m, std::vector<Hypothesis>& pool) {
-  for (Hypothesis& hypothesis : pool) {
-    hypothesis.seen_odds = static_cast<float>(odds_of(hypothesis, reading, radius_m));
-  }
-}
-
-/// What readings hold together. Where the field was `seen`, its reading is the second one, or the
-/// only one.
-SecondLook joined(const std::vector<Reading>& readings, bool seen, const Conditions& conditions,
-                  const Frame& frame) {
+/// What readings hold together; `seen` is the one that looked most closely through the strand
+/// field, null without any.
+SecondLook joined(const std::vector<Reading>& readings, const Reading* seen,
+                  const Conditions& conditions, const Frame& frame) {
   const auto radius_m = static_cast<double>(gate::tube_radius_m(
       readings.front().front().prior.nodes, frame.intrinsics, conditions.paths.rope_width_px));
   SecondLook look;
@@ -136,7 +125,10 @@ SecondLook joined(const std::vector<Reading>& readings, bool seen, const Conditi
   look.hypotheses = pooled(readings, radius_m);
   look.axes = conditions.axes;
   count_votes(readings, radius_m, look.hypotheses);
-  if (seen) count_seen_odds(readings[readings.size() > 1 ? 1 : 0], radius_m, look.hypotheses);
+  for (Hypothesis& hypothesis : look.hypotheses) {
+    hypothesis.seen_odds =
+        seen != nullptr ? static_cast<float>(odds_of(hypothesis, *seen, radius_m)) : 0;
+  }
   return look;
 }
 
@@ -163,14 +155,14 @@ double magnified_px(const Frame& frame, float rope_width_px) {
   return static_cast<double>(masked) * static_cast<double>(scale * scale);
 }
 
-ReadingCosts::ReadingCosts()
-    : of_mask(kMaskPixel_ms), of_field(kFieldPixel_ms), of_eroded(kFirstReading) {}
+ReadingCosts::ReadingCosts() : of_mask(kMaskPixel_ms), of_field(kFieldPixel_ms) {}
 
 SecondLook first_look(const Conditions& conditions, const Frame& frame) {
-  return joined({conditions.hypotheses}, conditions.axes.has_value(), conditions, frame);
+  const std::vector<Reading> readings{conditions.hypotheses};
+  return joined(readings, conditions.axes ? &readings.front() : nullptr, conditions, frame);
 }
 
-Rereading::Rereading(threads::Pool& pool, bool worth, field::Network* field,
+Rereading::Rereading(threads::Pool& pool, bool doubtful, field::Network* field,
                      const Conditions& conditions, const Frame& frame, const ReadConfig& config,
                      const ReadingLimits& limits)
     : field_(field),
@@ -178,29 +170,31 @@ Rereading::Rereading(threads::Pool& pool, bool worth, field::Network* field,
       conditions_(conditions),
       frame_(frame),
       config_(config),
-      rope_px_(worth && field != nullptr && limits.budget != nullptr
+      rope_px_(doubtful && limits.budget != nullptr
                    ? magnified_px(frame, conditions.paths.rope_width_px)
                    : 0),
-      reads_(planned(worth)),
+      reads_(planned(doubtful)),
       beside_(pool, static_cast<int>(reads_.size()),
-              [this](int which) { read(reads_[static_cast<std::size_t>(which)]); }) {}
+              [this](int i) { read(reads_[static_cast<std::size_t>(i)]); }) {}
 
-std::vector<Rereading::Read> Rereading::planned(bool worth) const {
+std::vector<Rereading::Read> Rereading::planned(bool doubtful) const {
   std::vector<Read> reads;
-  if (!worth) return reads;
-  if (field_ != nullptr) reads.push_back({Kind::kField});
-  reads.push_back({Kind::kEroded});
+  if (!doubtful) return reads;
+  if (field_ != nullptr && worth_rereading(conditions_, frame_)) {
+    reads.push_back({Kind::kCloserField});
+  }
+  if (!conditions_.of_mask) reads.push_back({Kind::kMask});
   if (limits_.budget == nullptr) return reads;
   for (Read& read : reads) read.expected_ms = cost_of(read.kind).of(amount_of(read.kind));
   return reads;
 }
 
 Cost& Rereading::cost_of(Kind kind) const {
-  return kind == Kind::kField ? limits_.costs->of_field : limits_.costs->of_eroded;
+  return kind == Kind::kCloserField ? limits_.costs->of_field : limits_.costs->of_mask;
 }
 
 double Rereading::amount_of(Kind kind) const {
-  return kind == Kind::kField ? rope_px_ : limits_.first_ms;
+  return kind == Kind::kCloserField ? rope_px_ / static_cast<double>(kCloser * kCloser) : rope_px_;
 }
 
 double Rereading::expected_ms() const {
@@ -214,15 +208,14 @@ void Rereading::read(Read& result) {
     return;
   }
   result.begin = Clock::now();
-  const float width_px = conditions_.paths.rope_width_px;
   const path::TraceConfig config = config_.trace(conditions_.cleaned);
-  const bool of_field = result.kind == Kind::kField;
   const auto trace = [&] {
-    return of_field ? trace_seen(*field_, frame_, width_px, config, axes_)
-                    : path::trace_eroded(frame_, width_px, config);
+    if (result.kind == Kind::kCloserField) {
+      return trace_seen(*field_, frame_, kCloser * conditions_.paths.rope_width_px, config, axes_);
+    }
+    return path::trace(frame_, config);
   };
-  result.hypotheses =
-      read_by(trace, of_field ? kOfField : kOfEroded, conditions_, frame_, config_.prior_kind);
+  result.hypotheses = read_by(trace, kOfOne, conditions_, frame_, config_.prior_kind);
   result.end = Clock::now();
 }
 
@@ -241,19 +234,17 @@ SecondLook Rereading::finish() {
   beside_.finish();
   learn_costs();
   std::vector<Reading> readings{conditions_.hypotheses};
-  bool seen = false;
-  bool field_left_out = false;
-  bool eroded_left_out = false;
+  readings.reserve(1 + reads_.size());  // one is pointed to
+  const Reading* seen = conditions_.axes ? &readings.front() : nullptr;
+  bool left_out = false;
   for (Read& read : reads_) {
-    const bool of_field = read.kind == Kind::kField;
-    (of_field ? field_left_out : eroded_left_out) = read.left_out;
+    left_out = left_out || read.left_out;
     if (read.hypotheses.empty()) continue;
-    seen = seen || of_field;
     readings.push_back(std::move(read.hypotheses));
+    if (read.kind == Kind::kCloserField) seen = &readings.back();
   }
   SecondLook look = joined(readings, seen, conditions_, frame_);
-  look.field_left_out = field_left_out;
-  look.eroded_left_out = eroded_left_out;
+  look.left_out = left_out;
   if (axes_) look.axes = std::move(axes_);
   return look;
 }

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "geometry/polyline.hpp"
+
 namespace flowdlo::gate {
 namespace {
 
@@ -83,7 +85,9 @@ Choice choose_calibrated(std::span<const Candidate> frames_own, const GateWeight
   const double lead = lead_elsewhere(candidates, returned, scores, hypothesis);
   Choice choice;
   choice.chosen = returned[hypothesis];
-  choice.switched = hypothesis != by_frame;
+  const Centerline& alone = candidates[returned[by_frame]].nodes;
+  choice.switched = geometry::mean_distance(candidates[choice.chosen].nodes, alone) >
+                    2 * static_cast<double>(candidates.front().radius_m);  // the rope's diameter
   const double logit =
       weights.closeness(closeness_features(candidates, choice.chosen, lead)).front();
   choice.probability = std::isfinite(logit) ? 1 / (1 + std::exp(-logit)) : 0;

@@ -25,7 +25,7 @@ struct Candidate {
   bool reread = false;  ///< only another reading than that of the mask as given led here
   float votes = 1;      ///< [0, 1] share of the readings whose best traversal runs here
   float odds = 1;       ///< [0, 1] mean over the readings of how likely each says it is
-  float seen_odds = 0;  ///< [0, 1] how likely the strand field's reading says it is
+  float seen_odds = 0;  ///< [0, 1] how likely the closest look through the strand field says it is
   AxesScore axes;       ///< how it agrees with the strand field
   float supported = 0;  ///< [0, 1] share of nodes with support
   float bridged = 0;    ///< [0, 1] share of its traversal on links over gaps

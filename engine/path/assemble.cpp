@@ -10,7 +10,7 @@
 #include "geometry/pixel.hpp"
 #include "image/components.hpp"
 #include "path/cover.hpp"
-#include "path/gap_curve.hpp"
+#include "path/links.hpp"
 #include "path/midline.hpp"
 
 namespace flowdlo::path {
@@ -33,22 +33,6 @@ struct Drawn {
     bridged.push_back(gap ? 1 : 0);
   }
 };
-
-// The cubic that leaves `from` along its direction and enters `to` against its own.
-Points cubic(const StrandEnd& from, const StrandEnd& to) {
-  Points points;
-  const float length = (to.point_px - from.point_px).norm();
-  const int steps = static_cast<int>(std::ceil(length));
-  for (int i = 1; i < steps; ++i) {
-    const float t = static_cast<float>(i) / static_cast<float>(steps);
-    const float t2 = t * t;
-    const float t3 = t2 * t;
-    points.push_back((2 * t3 - 3 * t2 + 1) * from.point_px +
-                     (t3 - 2 * t2 + t) * length * from.outward + (3 * t2 - 2 * t3) * to.point_px -
-                     (t3 - t2) * length * to.outward);
-  }
-  return points;
-}
 
 bool inside(const Points& points, const image::Mask& mask) {
   return std::all_of(points.begin(), points.end(), [&](const Vector2f& p) { return lit(mask, p); });
@@ -116,24 +100,19 @@ Points along_bridges(const Strands& strands, const image::Image<float>& distance
   return points;
 }
 
-// Through a crossing the cubic is the better guess (the skeleton there is pulled to the middle),
-// as long as it stays in the mask; otherwise the skeleton is followed.
+// Through a crossing the link's curve is the better guess (the skeleton there is pulled to the
+// middle), as long as it stays in the mask; otherwise the skeleton is followed.
 void draw_bond(const Strands& strands, const Region& region, const Cover& cover, int from_id,
                int to_id, Drawn& drawn) {
   const StrandEnd& from = strands.end(from_id);
   const StrandEnd& to = strands.end(to_id);
   const bool gap = from.tip() || to.tip() || from.crossing != to.crossing;
-  if (gap) {
-    for (const Vector2f& p : gap_points(from, to, cover, strands.scale_px)) drawn.add(p, true);
-    return;
+  Points points = points_between(from_id, to_id, strands, cover);
+  if (!gap && from.node != to.node && !inside(points, region.mask)) {
+    const std::vector<int> way = bridges_between(strands, from.node, to.node);
+    if (!way.empty()) points = along_bridges(strands, region.distance_px, way, from, to);
   }
-  std::vector<int> way;
-  if (from.node != to.node) way = bridges_between(strands, from.node, to.node);
-  Points points = cubic(from, to);
-  if (!way.empty() && !inside(points, region.mask)) {
-    points = along_bridges(strands, region.distance_px, way, from, to);
-  }
-  for (const Vector2f& p : points) drawn.add(p, false);
+  for (const Vector2f& p : points) drawn.add(p, gap);
 }
 
 // An end at a crossing touches the other strand, or lies on it, or hardly shows behind it. Straight
@@ -202,7 +181,7 @@ Path to_image(const Drawn& drawn, const Region& region, const Frame& frame) {
 
 Path assemble(const Traversal& traversal, const Strands& strands, const Region& region,
               const Frame& frame) {
-  const Cover cover(region, frame, strands.width_px);
+  const Cover cover(region, frame, strands.width_px, strands.seen);
   Drawn drawn;
   const StrandEnd& first = strands.end(traversal.enters.front());
   const StrandEnd& last = strands.end(traversal.enters.back() ^ 1);
@@ -232,7 +211,7 @@ Path assemble(const Traversal& traversal, const Strands& strands, const Region& 
   path.score = -static_cast<double>(traversal.cost);
   const Strand& one = strands.list[traversal.enters.front() / 2];
   path.ring = one.ring || traversal.closed;
-  path.closed = traversal.closed || (one.ring && !one.opened);
+  path.closed = path.ring;
   if (traversal.closed) return path;
   for (const StrandEnd* end : {&first, &last}) {
     path.hidden_ends += end->tip() && end->cut ? 0.5F : 0;

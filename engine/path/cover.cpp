@@ -31,6 +31,15 @@ float Cover::shown(const Vector2f& p, const Vector2f& along, bool below_only) co
 
 bool Cover::masked(const Vector2f& p) const { return lit(region_.mask, p); }
 
+bool Cover::near_mask(const Vector2f& p) const {
+  for (const int dv : {-1, 0, 1}) {
+    for (const int du : {-1, 0, 1}) {
+      if (masked(p + Vector2f(static_cast<float>(du), static_cast<float>(dv)))) return true;
+    }
+  }
+  return false;
+}
+
 float Cover::depth_around(const Vector2f& p, bool on_mask) const {
   std::array<float, 5> values{};
   std::size_t count = 0;
@@ -99,6 +108,18 @@ Sight Cover::beyond(Vector2f p, const Vector2f& direction, float rope_m, float r
     return rises_to(edge, direction, rope_m) ? Sight::kUnknown : Sight::kHidden;
   }
   return 2 * open > kProbes ? Sight::kOpen : Sight::kUnknown;
+}
+
+bool Cover::meets(Vector2f p, const Vector2f& direction, float reach_px) const {
+  for (float walked = 0; masked(p); ++walked) {
+    if (walked > reach_px) return true;
+    p += direction;
+  }
+  for (int i = 0; i < kProbes; ++i) {
+    p += kProbeStepPx * direction;
+    if (masked(p)) return true;
+  }
+  return false;
 }
 
 // Whether what shows beyond `edge` is nearer than the rope only farther on: a table seen aslant,

@@ -27,6 +27,9 @@ class Cover {
   /// Of the frame's camera.
   [[nodiscard]] float focal_px() const { return frame_.intrinsics.fx; }
 
+  /// Whether there is a field to ask.
+  [[nodiscard]] bool has_field() const { return seen_ != nullptr; }
+
   /// As field::FieldView::shown; 0 without a field.
   [[nodiscard]] float shown(const Eigen::Vector2f& p, const Eigen::Vector2f& along,
                             bool below_only) const;
@@ -43,11 +46,19 @@ class Cover {
   [[nodiscard]] Sight beyond(Eigen::Vector2f p, const Eigen::Vector2f& direction, float rope_m,
                              float reach_px) const;
 
+  /// Whether the mask goes on from `p` for more than `reach_px`, or begins again within 6 px of its
+  /// edge: a strand that passes there.
+  [[nodiscard]] bool meets(Eigen::Vector2f p, const Eigen::Vector2f& direction,
+                           float reach_px) const;
+
   /// Depth of the mask around `p`, 0 without any.
   [[nodiscard]] float rope_depth(const Eigen::Vector2f& p) const;
 
   /// Whether `p` lies on the mask.
   [[nodiscard]] bool masked(const Eigen::Vector2f& p) const;
+
+  /// Whether a pixel of the mask lies there or right beside it: borders of masks are no surer.
+  [[nodiscard]] bool near_mask(const Eigen::Vector2f& p) const;
 
  private:
   // Median depth of the pixels around `p` that are on the mask, or that are not.

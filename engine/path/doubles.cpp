@@ -28,7 +28,6 @@ constexpr float kMeanMost = 2.4F;
 constexpr float kShortest = 4.0F;     // widths; a flat crossing is shorter
 constexpr float kShortestPx = 20.0F;  // what frays leave on thin ropes is shorter too
 constexpr float kClearMean = 1.85F;   // what is this much wider in the mean
-constexpr float kStandsSeamPx = 8.0F;
 constexpr float kLeastWidthPx = 1.5F;
 constexpr float kForkedLeast = 1.18F;  // times its branches' width: a stem of two strands
 constexpr float kLoopedLeast = 1.3F;
@@ -47,9 +46,6 @@ class Cutter {
         narrowest_px_(width_px),
         ends_(graph, mask, width_px) {}
 
-  // To cut nothing but what is too wide for one strand whatever its noise.
-  void only_clear() { least_ = kClearMean; }
-
   void cut(const Segment& segment, const Line& line) {
     const int count = static_cast<int>(line.size());
     for (int first = 0; first < count; ++first) {
@@ -62,8 +58,8 @@ class Cutter {
       const float width_px = size_px_ * line[(first + last) / 2].nearer;
       ends_.clear = mean > kClearMean;
       if (length >= std::max(kShortest * width_px, kShortestPx) && mean < kMeanMost &&
-          (mean > std::max(kMeanLeast, least_) ||
-           (mean > std::max(kAslantLeast, least_) && anchored(segment, line, first, last - 1)))) {
+          (mean > kMeanLeast ||
+           (mean > kAslantLeast && anchored(segment, line, first, last - 1)))) {
         draw(segment, line, first, last - 1);
       }
       first = last;
@@ -74,7 +70,6 @@ class Cutter {
   // aslant, two strands are not much wider than one; but four branches need two strands. So do two
   // at one fork, where the stem ends in a tip and they are the two ends of a loop.
   void cut_stem(std::size_t stem, const std::vector<Line>& lines) {
-    if (least_ > 0) return;
     const Segment& segment = graph_.segments[stem];
     const int tip = graph_.at_tip(segment, 0) ? 0 : 1;
     const bool looped = graph_.at_tip(segment, tip) && loops(stem, 1 - tip);
@@ -94,10 +89,7 @@ class Cutter {
     const float shortest = std::max(kShortest * branch_px, kShortestPx);
     if (static_cast<float>(line.size()) < shortest + 2 * static_cast<float>(trim)) return;
     std::vector<float> sizes;
-    for (std::size_t i = trim; i + trim < line.size(); ++i) {
-      if (line[i].seamed) return;
-      sizes.push_back(line[i].size_px);
-    }
+    for (std::size_t i = trim; i + trim < line.size(); ++i) sizes.push_back(line[i].size_px);
     const float ratio = quantile(sizes, 0.5F) / branch_px;
     if (ratio < (looped ? kLoopedLeast : kForkedLeast) || ratio > kForkedMost) return;
     if (quantile(sizes, 0.85F) > kForkedSpread * quantile(sizes, 0.15F)) return;
@@ -164,7 +156,7 @@ class Cutter {
     const auto to = std::min(line.size(), static_cast<std::size_t>(kBranchTo * width_px) + 1);
     for (std::size_t i = from; i < to; ++i) {
       const Station& station = end % 2 == 0 ? line[i] : line[line.size() - 1 - i];
-      if (!station.seamed) sizes.push_back(station.size_px);
+      sizes.push_back(station.size_px);
     }
   }
 
@@ -190,7 +182,6 @@ class Cutter {
   const image::Mask& mask_;
   float size_px_;
   float narrowest_px_;
-  float least_ = 0;  // widths: nothing narrower is cut
   CutEnds ends_;
   std::vector<Points> found_;
 };
@@ -202,8 +193,6 @@ Doubles find_doubles(const Graph& graph, const Region& region, const Frame& fram
   const float width_px = single_size(lines, graph.width_px);
   const bool told = width_px >= kLeastWidthPx;
   Cutter cutter(graph, region.mask, told ? width_px : graph.width_px);
-  // Where the depth told strands apart, thin ones are narrower now than they are.
-  if (!region.seams.empty() && graph.width_px < kStandsSeamPx) cutter.only_clear();
   for (std::size_t i = 0; i < lines.size(); ++i) {
     const std::size_t had = cutter.found().size();
     if (told) cutter.cut(graph.segments[i], lines[i]);

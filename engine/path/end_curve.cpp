@@ -14,7 +14,7 @@ constexpr float kNearestWidths = 0.5F;  // ends nearer than this have no curve b
 }  // namespace
 
 EndCurve end_curve(const StrandEnd& from, const StrandEnd& to, float leaves, float enters,
-                   float scale_px, bool from_own) {
+                   float scale_px) {
   EndCurve curve;
   const float chord_px = (to.point_px - from.point_px).norm();
   curve.cubic = {from.point_px, to.point_px, leaves * chord_px * from.heading,
@@ -22,8 +22,6 @@ EndCurve end_curve(const StrandEnd& from, const StrandEnd& to, float leaves, flo
   const Vector2f chord = curve.cubic.b - curve.cubic.a;
   const Vector2f da = curve.cubic.da;
   const Vector2f db = curve.cubic.db;
-  const float own_from = from_own ? from.curvature : 0;
-  const float own_to = from_own ? to.curvature : 0;
   std::array<float, kCurveSamples> bends;
   for (int i = 0; i < kCurveSamples; ++i) {  // without branches, for many at once
     const float t = sample_t(i);
@@ -35,7 +33,7 @@ EndCurve end_curve(const StrandEnd& from, const StrandEnd& to, float leaves, flo
     const float y2 = second.chord * chord.y() + second.a * da.y() + second.b * db.y();
     const float speed = std::max(std::sqrt(x1 * x1 + y1 * y1), 1e-3F);
     const float bend = (x1 * y2 - y1 * x2) / (speed * speed * speed);
-    bends[i] = bend - ((1 - t) * own_from - t * own_to);
+    bends[i] = bend - ((1 - t) * from.curvature - t * to.curvature);
     curve.steps[i] = speed / kCurveSamples;
   }
   float energy = 0;

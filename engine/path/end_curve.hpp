@@ -55,8 +55,8 @@ struct EndCurve {
 
 /// The cubic with tangents of `leaves` and `enters` chords along the ends' headings; ends within
 /// half of `scale_px` have no curve between them, and bend by their turn. Bends are told from how
-/// the ends themselves bend on where `from_own` is true.
+/// the ends themselves bend on.
 [[nodiscard]] EndCurve end_curve(const StrandEnd& from, const StrandEnd& to, float leaves,
-                                 float enters, float scale_px, bool from_own);
+                                 float enters, float scale_px);
 
 }  // namespace flowdlo::path

@@ -1,4 +1,5 @@
-// Energy: what a way through the strands that a field shows pays, term by term. Free of units: the
+// Energy: what a way through strands pays, term by term, whether a field shows them or the mask
+// alone. Free of units: the
 // negative logarithm of how likely each choice is (up to what all choices share).
 #pragma once
 
@@ -13,9 +14,11 @@ enum LinkTerm : std::size_t {
   kLinkBend,     ///< log(1 + B / 0.1), B: L times the integral of (bend - the ends' own bend)^2
   kLinkStump,    ///< the same, as far as one strand is a stump whose direction is hardly known
   kLinkOpen,     ///< 1 - exp(-l / (0.3 w)), l: over which the background shows where a rope would
-  kLinkUnshown,  ///< 1 - exp(-l / (2 w)), l: over which the mask is set but no strand runs that way
+  kLinkUnshown,  ///< 1 - exp(-l / (2 w)), l: over which the mask is set but no strand of the field
+                 ///< runs that way; 0 without a field
   kLinkColor,    ///< how much another colour one strand has than the other
-  kLinkDepth,    ///< how badly the depths on both sides fit one smooth strand
+  kLinkDepth,    ///< log(1 + r^2 / 2), r: how far the depths on both sides are from one smooth
+                 ///< strand, over what noise makes of it
   kLinkHeard,  ///< how likely one of both ends goes on elsewhere, by the reading of the mask alone
   kLinkTerms
 };
@@ -32,17 +35,29 @@ using StopTerms = std::array<float, kStopTerms>;
 
 /// Of one rope's way, which has two ends whatever they cost. Fitted by `flowdlo-lab energy-fit` to
 /// the ends of strands in 900 `wide` training scenes of one rope (from 3200000 on), of which the
-/// right one of all links is to be the likeliest; colour and depth as below.
-inline constexpr LinkTerms kOneRopeLinks{1.0F, 1.05F, 0.95F, 2.0F, 3.4F, 0.8F, 1.0F, 0.0F};
+/// right one of all links is to be the likeliest; colour as below; depth, whose fit says nothing,
+/// on scenes 3000000 to 3000599 by `flowdlo-lab reading-report`.
+inline constexpr LinkTerms kOneRopeLinks{1.0F, 1.05F, 0.95F, 2.0F, 3.4F, 0.8F, 0.3F, 0.0F};
 
 /// Where a rope may as well end. Fitted by the same with `--first 3200000 --scenes 200 --several
-/// 700`, as what stops cost.
-inline constexpr LinkTerms kSeveralRopesLinks{2.1F, 1.0F, 0.4F, 2.0F, 1.7F, 1.0F, 1.05F, 1.0F};
+/// 700`, as what stops cost; depth, whose fit says nothing, so that 12 cm of it outweigh a right
+/// angle.
+inline constexpr LinkTerms kSeveralRopesLinks{2.1F, 1.0F, 0.4F, 2.0F, 1.7F, 1.0F, 0.5F, 1.0F};
 inline constexpr StopTerms kStopWeights{1.6F, 4.7F, 1.0F};
 
 /// Of each width of a strand that a path leaves out. Chosen on `wide` training scenes 3000500 to
 /// 3000749 by `flowdlo-lab reading-report`: 1 is worse by 0.1 cm, 4 by 0.02.
 inline constexpr float kLeftOutEnergy = 2.5F;
+
+/// And of one more closed rope, which has no ends to pay for. Chosen on drawn scenes of rings
+/// (`flowdlo-lab ropes-report`).
+inline constexpr float kRingEnergy = 1.0F;
+
+/// How much the end of a strand of the mask looks like the rope's own, where no field says it: a
+/// tip in plain sight; one at which an occluder begins, or beyond which another strand passes. An
+/// end at a crossing looks like none.
+inline constexpr float kPlainTip = 1.0F;
+inline constexpr float kCoveredTip = 0.3F;
 
 template <std::size_t Count>
 [[nodiscard]] float energy_of(const std::array<float, Count>& terms,

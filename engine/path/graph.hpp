@@ -16,7 +16,6 @@ struct Segment {
   std::array<int, 2> node{-1, -1};  ///< at each side; both -1: a ring, cut open
   float length_px = 0;
   bool alive = true;
-  bool opened = false;  ///< a ring that is cut where the rope's two ends show
 
   [[nodiscard]] bool ring() const { return node[0] < 0; }
 };

@@ -44,8 +44,4 @@ inline constexpr int kMostRereadStrands = 41;
 /// each lifts paths as long. Over a hundred `wide` scenes the most is 1.8.
 inline constexpr int kMostRereadSides = 3;
 
-/// Ends at one crossing that may pass along a strand; over a hundred `wide`
-/// scenes and all readings of them the most is 68.
-inline constexpr int kMostAtCrossing = 96;
-
 }  // namespace flowdlo::path

@@ -3,14 +3,15 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-
-#include "path/end_curve.hpp"
+#include <cstddef>
 
 namespace flowdlo::path {
 namespace {
 
 using Eigen::Vector2f;
 
+constexpr int kFineRounds = 10;          // of the tangents that are drawn, each
+constexpr float kFineFactor = 1.15F;     // so much longer or shorter
 constexpr float kBend = 0.1F;            // L times the integral of bend^2 that hardly tells
 constexpr float kFollowedWidths = 1.0F;  // a strand that shows farther from both ends has its line
 constexpr float kShown = 0.4F;           // of the field: as much as shows it surely
@@ -22,7 +23,7 @@ constexpr float kDepthNoise = 0.2F;  // metres of depth a metre along the link
 
 float saturated(float length, float scale) { return 1 - std::exp(-length / scale); }
 
-// [0, 1) how badly the depths on both sides fit one smooth strand.
+// How badly the depths on both sides fit one smooth strand.
 float depth_misfit(const StrandEnd& from, const StrandEnd& to, float width_px, float focal_px) {
   if (from.depth_m <= 0 || to.depth_m <= 0 || focal_px <= 0) return 0;
   const float length_px = (to.point_px - from.point_px).norm();
@@ -30,19 +31,20 @@ float depth_misfit(const StrandEnd& from, const StrandEnd& to, float width_px, f
   const float expected = 0.5F * length_px * (from.slope_per_px - to.slope_per_px);
   const float off = std::abs(to.depth_m - from.depth_m - expected);
   const float noise = kDepthNoise_m + (0.5F * width_px + kDepthNoise * length_px) * metres_per_px;
-  return 1 - std::exp(-0.5F * (off / noise) * (off / noise));
+  return std::log1p(0.5F * (off / noise) * (off / noise));
 }
 
 class Linker {
  public:
-  Linker(const StrandEnd& from, const StrandEnd& to, const Cover& cover, const LinkTerms& weights,
-         float scale_px, float trust, float elsewhere)
-      : from_(from), to_(to), cover_(cover), weights_(weights), w_(scale_px), trust_(trust) {
+  Linker(const StrandEnd& from, const StrandEnd& to, const Cover& cover, const LinkConfig& config)
+      : from_(from), to_(to), cover_(cover), config_(config), w_(config.scale_px) {
     fit_[kLinkColor] = color_misfit(from.look, to.look);
-    fit_[kLinkHeard] = elsewhere;
-    fit_[kLinkDepth] = depth_misfit(from, to, scale_px, cover.focal_px());
+    fit_[kLinkHeard] = config.elsewhere;
+    fit_[kLinkDepth] = depth_misfit(from, to, w_, cover.focal_px());
   }
 
+  // Over a grid of both tangents' lengths, those first that bend least; mask, depth and field are
+  // looked up only where the rest leaves room below `most`.
   Link search(float most) {
     std::array<Attempt, kTangents.size() * kTangents.size()> attempts;
     std::size_t count = 0;
@@ -51,18 +53,33 @@ class Linker {
     }
     std::stable_sort(attempts.begin(), attempts.end(),
                      [](const Attempt& a, const Attempt& b) { return a.energy < b.energy; });
-    Link best;
-    best.energy = most;
-    for (Attempt& attempt : attempts) {
-      if (attempt.energy >= best.energy) break;
-      look(attempt);
-      if (attempt.energy < best.energy) best = {attempt.terms, attempt.energy};
+    best_.energy = most;
+    for (const Attempt& attempt : attempts) {
+      if (attempt.energy >= best_.energy) break;
+      accept(attempt);
     }
-    return best;
+    return best_;
+  }
+
+  // Tangents a little longer and shorter, as long as that is better. How long a link is says
+  // whether it is one, not how it runs.
+  Link refined() {
+    config_.weights[kLinkLong] = 0;
+    (void)search(std::numeric_limits<float>::max());
+    bool better = true;
+    for (int round = 0; better && round < kFineRounds; ++round) {
+      better = accept(drawn(leaves_ * kFineFactor, enters_));
+      better = accept(drawn(leaves_ / kFineFactor, enters_)) || better;
+      better = accept(drawn(leaves_, enters_ * kFineFactor)) || better;
+      better = accept(drawn(leaves_, enters_ / kFineFactor)) || better;
+    }
+    return best_;
   }
 
  private:
   struct Attempt {
+    float leaves = 1;
+    float enters = 1;
     EndCurve curve{};
     LinkTerms terms{};
     float energy = 0;
@@ -70,16 +87,26 @@ class Linker {
 
   // A curve, and what its length and its bends cost.
   [[nodiscard]] Attempt drawn(float leaves, float enters) const {
-    Attempt attempt{end_curve(from_, to_, leaves, enters, w_, true), fit_};
+    Attempt attempt{leaves, enters, end_curve(from_, to_, leaves, enters, w_), fit_};
     const float bend = std::log1p(attempt.curve.bending / kBend);
     attempt.terms[kLinkLong] = std::log1p(attempt.curve.length_px / (kLongWidths * w_));
-    attempt.terms[kLinkBend] = trust_ * bend;
-    attempt.terms[kLinkStump] = (1 - trust_) * bend;
-    attempt.energy = energy_of(attempt.terms, weights_);
+    attempt.terms[kLinkBend] = config_.trust * bend;
+    attempt.terms[kLinkStump] = (1 - config_.trust) * bend;
+    attempt.energy = energy_of(attempt.terms, config_.weights);
     return attempt;
   }
 
-  // What mask, depth and field show along it.
+  // Whether the attempt is the best so far, with what mask, depth and field show along it.
+  bool accept(Attempt attempt) {
+    if (attempt.energy >= best_.energy) return false;
+    look(attempt);
+    if (attempt.energy >= best_.energy) return false;
+    best_ = {attempt.terms, attempt.energy, attempt.curve};
+    leaves_ = attempt.leaves;
+    enters_ = attempt.enters;
+    return true;
+  }
+
   void look(Attempt& attempt) const {
     const EndCurve& curve = attempt.curve;
     const bool depths_known = from_.depth_m > 0 && to_.depth_m > 0;
@@ -97,30 +124,44 @@ class Linker {
       const bool below = to_end > kFollowedWidths * w_;
       const float shown =
           d1.norm() > 0 ? std::min(1.0F, cover_.shown(p, d1.normalized(), below) / kShown) : 0.0F;
-      if (cover_.masked(p)) unshown_px += (1 - shown) * step;
-      if (depths_known && cover_.open(p, (1 - t) * from_.depth_m + t * to_.depth_m)) {
+      if (cover_.has_field() && cover_.masked(p)) unshown_px += (1 - shown) * step;
+      const bool unsure = !cover_.has_field() && !cover_.masked(p) && cover_.near_mask(p);
+      if (depths_known && !unsure && cover_.open(p, (1 - t) * from_.depth_m + t * to_.depth_m)) {
         open_px += (1 - shown) * step;
       }
     }
     attempt.terms[kLinkOpen] = saturated(open_px, kOpenWidths * w_);
     attempt.terms[kLinkUnshown] = saturated(unshown_px, kUnshownWidths * w_);
-    attempt.energy = energy_of(attempt.terms, weights_);
+    attempt.energy = energy_of(attempt.terms, config_.weights);
   }
 
   const StrandEnd& from_;
   const StrandEnd& to_;
   const Cover& cover_;
-  const LinkTerms& weights_;
+  LinkConfig config_;
   float w_;
-  float trust_;
   LinkTerms fit_{};  // what does not depend on the curve
+  Link best_{};
+  float leaves_ = 1;
+  float enters_ = 1;
 };
 
 }  // namespace
 
 Link best_link(const StrandEnd& from, const StrandEnd& to, const Cover& cover,
-               const LinkTerms& weights, float scale_px, float trust, float most, float elsewhere) {
-  return Linker(from, to, cover, weights, scale_px, trust, elsewhere).search(most);
+               const LinkConfig& config, float most) {
+  return Linker(from, to, cover, config).search(most);
+}
+
+std::vector<Vector2f> link_points(const StrandEnd& from, const StrandEnd& to, const Cover& cover,
+                                  const LinkConfig& config) {
+  const EndCurve curve = Linker(from, to, cover, config).refined().curve;
+  const auto steps = static_cast<int>(std::ceil(curve.length_px));
+  std::vector<Vector2f> points;
+  for (int i = 1; i < steps; ++i) {
+    points.push_back(curve.cubic.at(static_cast<float>(i) / static_cast<float>(steps)));
+  }
+  return points;
 }
 
 float least_energy(float length_px, const LinkTerms& weights, float scale_px) {

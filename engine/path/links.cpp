@@ -5,8 +5,6 @@
 #include <limits>
 #include <utility>
 
-#include "path/walk_costs.hpp"
-
 namespace flowdlo::path {
 namespace {
 
@@ -43,48 +41,52 @@ float scale_between(const StrandEnd& a, const StrandEnd& b, const Strands& stran
   return std::max(kLeastScalePx, 0.5F * (a.look.width_px + b.look.width_px));
 }
 
+const LinkTerms& weights_of(const Strands& strands) {
+  return strands.several ? kSeveralRopesLinks : kOneRopeLinks;
+}
+
+LinkConfig config_between(int from, int to, const Strands& strands, const LinkTerms& weights,
+                          float elsewhere) {
+  const auto shorter = static_cast<float>(
+      std::min(strands.list[from / 2].points_px.size(), strands.list[to / 2].points_px.size()));
+  const float scale_px = scale_between(strands.end(from), strands.end(to), strands);
+  return {weights, scale_px, std::min(1.0F, shorter / (kKnownWidths * scale_px)), elsewhere};
+}
+
 // No link costs more than leaving out what lies beyond it.
 float most_for(int a, int b, const Strands& strands) {
-  return std::max({kMostEnergy, left_out_cost(strands.list[a / 2], strands),
-                   left_out_cost(strands.list[b / 2], strands)});
+  return std::max({kMostEnergy, left_out_energy(strands.list[a / 2], strands),
+                   left_out_energy(strands.list[b / 2], strands)});
 }
 
 }  // namespace
 
-StopTerms stop_terms(const StrandEnd& end) {
-  StopTerms terms{};
-  terms[kStopStart] = 1;
-  terms[kStopUnseen] = end.leaves ? 0 : 1 - end.tip_seen;
-  terms[kStopHeard] = end.goes_on;
-  return terms;
-}
-
 Link link_between(int from, int to, const Strands& strands, const Cover& cover,
                   const LinkTerms& weights, float most, float elsewhere) {
-  const auto shorter = static_cast<float>(
-      std::min(strands.list[from / 2].points_px.size(), strands.list[to / 2].points_px.size()));
-  const StrandEnd& a = strands.end(from);
-  const StrandEnd& b = strands.end(to);
-  const float scale_px = scale_between(a, b, strands);
-  const float trust = std::min(1.0F, shorter / (kKnownWidths * scale_px));
-  return best_link(a, b, cover, weights, scale_px, trust, most, elsewhere);
+  return best_link(strands.end(from), strands.end(to), cover,
+                   config_between(from, to, strands, weights, elsewhere), most);
+}
+
+std::vector<Eigen::Vector2f> points_between(int from, int to, const Strands& strands,
+                                            const Cover& cover) {
+  return link_points(strands.end(from), strands.end(to), cover,
+                     config_between(from, to, strands, weights_of(strands), 0));
 }
 
 std::vector<std::vector<Bond>> make_links(const Strands& strands, const Region& region,
-                                          const Frame& frame, bool several,
-                                          const Opinion& opinion) {
-  const LinkTerms& weights = several ? kSeveralRopesLinks : kOneRopeLinks;
+                                          const Frame& frame, const Opinion& opinion) {
+  const LinkTerms& weights = weights_of(strands);
   const Cover cover(region, frame, strands.width_px, strands.seen);
   const std::vector<int> ends = open_ends(strands);
   std::vector<Nearness> pairs;
   for (std::size_t i = 0; i < ends.size(); ++i) {
     for (std::size_t j = i + 1; j < ends.size(); ++j) {
-      if (ends[i] / 2 == ends[j] / 2 && !several) continue;
+      if (ends[i] / 2 == ends[j] / 2 && !strands.several) continue;
       const StrandEnd& a = strands.end(ends[i]);
       const StrandEnd& b = strands.end(ends[j]);
       const float apart = (a.point_px - b.point_px).norm();
       const float least = least_energy(apart, weights, scale_between(a, b, strands));
-      if (several && a.leaves && b.leaves) continue;
+      if (strands.several && a.leaves && b.leaves) continue;
       const float most = most_for(ends[i], ends[j], strands);
       if (least < most) pairs.push_back({ends[i], ends[j], least, most});
     }
@@ -108,7 +110,7 @@ std::vector<std::vector<Bond>> make_links(const Strands& strands, const Region& 
     if (link.energy >= most) continue;
     for (const auto& [end, other] : {std::pair{pair.from, pair.to}, {pair.to, pair.from}}) {
       auto& list = links[end];
-      const Bond bond{other, link.energy, true};
+      const Bond bond{other, link.energy};
       list.insert(std::upper_bound(list.begin(), list.end(), bond, cheaper), bond);
       if (list.size() > kLinksAnEnd) list.pop_back();
     }

@@ -1,20 +1,27 @@
-// Links: which ends of the strands that a field shows may be joined, and at what energy.
+// Links: which ends of strands may be joined, and at what energy.
 #pragma once
 
+#include <limits>
 #include <vector>
 
-#include "path/bonds.hpp"
 #include "path/link.hpp"
 #include "path/second_opinion.hpp"
+#include "path/strands.hpp"
 
 namespace flowdlo::path {
 
-/// [2 * strands] the links of each end, cheapest first; symmetric up to the cut at a few an end.
-/// For `several` ropes a link may lead from one end of a strand to its other one, for there may be
-/// rings, but none from one end at the image's border to another: what comes back is another rope.
+/// A link as the search sees it.
+struct Bond {
+  int to = -1;     ///< the end that the path enters next
+  float cost = 0;  ///< the link's energy
+};
+
+/// [2 * strands] the bonds of each end, cheapest first; symmetric up to the cut at a few an end.
+/// Where there may be several ropes, a link may lead from one end of a strand to its other one, for
+/// there may be rings, but none from one end at the image's border to another: what comes back is
+/// another rope.
 [[nodiscard]] std::vector<std::vector<Bond>> make_links(const Strands& strands,
                                                         const Region& region, const Frame& frame,
-                                                        bool several = false,
                                                         const Opinion& opinion = {});
 
 /// The link between two ends, whatever it costs: what the weights are fitted to. `elsewhere` is
@@ -24,7 +31,8 @@ namespace flowdlo::path {
                                 float most = std::numeric_limits<float>::max(),
                                 float elsewhere = 0);
 
-/// What a path pays that ends there, and what that comes of.
-[[nodiscard]] StopTerms stop_terms(const StrandEnd& end);
+/// The points of the link between two ends as it is drawn, about a pixel apart, without the ends.
+[[nodiscard]] std::vector<Eigen::Vector2f> points_between(int from, int to, const Strands& strands,
+                                                          const Cover& cover);
 
 }  // namespace flowdlo::path

@@ -10,14 +10,12 @@
 
 #include "guard/guarded.hpp"
 #include "image/masks.hpp"
-#include "path/cover.hpp"
 #include "path/doubles.hpp"
 #include "path/graph.hpp"
-#include "path/hidden_forks.hpp"
 #include "path/limits.hpp"
+#include "path/links.hpp"
 #include "path/ranked.hpp"
 #include "path/region.hpp"
-#include "path/rings.hpp"
 #include "path/rope_paths.hpp"
 #include "path/strands.hpp"
 #include "path/thinning.hpp"
@@ -83,28 +81,27 @@ template <class Answer>
 using Read = std::function<Result<Answer>(const Strands&, const Region&, const Frame&)>;
 
 template <class Answer>
-Result<Answer> trace_graph(Graph& graph, const Region& region, const Frame& frame,
-                           const Read<Answer>& read) {
-  split_at_hidden_forks(graph, Cover(region, frame, graph.width_px));
-  open_rings(graph, region);
-  return read(make_strands(graph, region, frame), region, frame);
+Result<Answer> trace_graph(const Graph& graph, const Region& region, const Frame& frame,
+                           bool several, const Read<Answer>& read) {
+  Strands strands = make_strands(graph, region, frame);
+  strands.several = several;
+  return read(strands, region, frame);
 }
 
 // The answer for a mask whose doubles are cut apart; magnified, where the strands are too thin
 // for a cut a pixel wide.
 template <class Answer>
 Result<Answer> trace_parted(const Region& region, const Doubles& doubles, const Frame& frame,
-                            const Read<Answer>& read) {
+                            bool several, const Read<Answer>& read) {
   const bool large = region.mask.total() * kMagnified * kMagnified > kMostMagnifiedPixels;
   if (doubles.width_px >= kThinDoublePx || large) {
     const Region parted = cut(region, doubles.lines);
-    Graph graph = make_graph(thin(parted.mask), parted);
-    return trace_graph(graph, parted, frame, read);
+    return trace_graph(make_graph(thin(parted.mask), parted), parted, frame, several, read);
   }
   const Magnified magnified(frame, region, kMagnified);
   const Region parted = cut(magnified.region(), magnified.enlarged(doubles.lines));
-  Graph graph = make_graph(thin(parted.mask), parted);
-  auto result = trace_graph(graph, parted, magnified.frame(), read);
+  auto result =
+      trace_graph(make_graph(thin(parted.mask), parted), parted, magnified.frame(), several, read);
   if (result) magnified.restore(*result);
   return result;
 }
@@ -134,31 +131,26 @@ RopePaths better(RopePaths parted, RopePaths whole, int ropes) {
   return lead < (ropes == 1 ? -kLeftOut : kLeftOut) ? std::move(whole) : std::move(parted);
 }
 
-template <class Answer, class Join>
-Result<Answer> trace_region(const Frame& frame, Result<Region> region, int ropes,
-                            const Read<Answer>& read, const Join& join) {
-  if (!region) return region.error();
-  auto graph = graph_of(*region);
-  if (!graph) return graph.error();
-  const int most_parted = ropes == 1 ? kMostPartedSegments : kMostSegments;
-  Doubles doubles;
-  if (alive(*graph) <= most_parted) doubles = find_doubles(*graph, *region, frame);
-  auto whole = trace_graph(*graph, *region, frame, read);
-  if (doubles.lines.empty() || !whole) return whole;
-  auto parted = trace_parted(*region, doubles, frame, read);
-  if (!parted) return whole;
-  return join(*std::move(parted), *std::move(whole));
-}
-
-// The answer for a mask; one that is too large to be traced as it is, is traced reduced.
+// The answer for a mask, or for a reduced copy of one that is too large to be traced as it is.
 template <class Answer, class Join>
 Result<Answer> trace_mask(const Frame& frame, const Region* cleaned, int ropes,
                           const Read<Answer>& read, const Join& join) {
-  return trace_reduced<Answer>(frame, [&](const Frame& seen, const Reduced* copy) {
+  const auto trace = [&](const Frame& seen, const Reduced* copy) -> Result<Answer> {
     const bool known = copy == nullptr && cleaned != nullptr;
-    return trace_region(seen, known ? Result<Region>(*cleaned) : clean(seen, ropes), ropes, read,
-                        join);
-  });
+    auto region = known ? Result<Region>(*cleaned) : clean(seen, ropes);
+    if (!region) return region.error();
+    const auto graph = graph_of(*region);
+    if (!graph) return graph.error();
+    const int most_parted = ropes == 1 ? kMostPartedSegments : kMostSegments;
+    Doubles doubles;
+    if (alive(*graph) <= most_parted) doubles = find_doubles(*graph, *region, seen);
+    auto whole = trace_graph(*graph, *region, seen, ropes != 1, read);
+    if (doubles.lines.empty() || !whole) return whole;
+    auto parted = trace_parted(*region, doubles, seen, ropes != 1, read);
+    if (!parted) return whole;
+    return join(*std::move(parted), *std::move(whole));
+  };
+  return trace_reduced<Answer>(frame, trace);
 }
 
 // Length of what the region shows, in widths.
@@ -202,9 +194,7 @@ Result<Traversals> trace(const Frame& frame, const TraceConfig& config) {
 Result<RopePaths> trace_ropes(const Frame& frame, int ropes) {
   const Read<RopePaths> read = [&](const Strands& strands, const Region& region,
                                    const Frame& seen) {
-    const auto bonds = ropes == 1 ? make_bonds(strands, region, seen, true)
-                                  : bonds_of_several(strands, region, seen);
-    return rope_paths(strands, bonds, region, seen, ropes);
+    return rope_paths(strands, make_links(strands, region, seen), region, seen, ropes);
   };
   return guard::guarded("path", [&] {
     return trace_mask(frame, nullptr, ropes, read, [&](RopePaths parted, RopePaths whole) {

@@ -56,8 +56,7 @@ struct RopePaths {
   std::vector<float> lead;  ///< [ropes] by how much any set without that rope costs more
   float rope_width_px = 0;  ///< median width of the mask across the skeleton
   bool filtered = false;    ///< the mask is noise or texture; what a filter left of it was read
-  std::vector<RopesGuess>
-      guesses{};  ///< the likeliest sets, that one first; none of a field's axes
+  std::vector<RopesGuess> guesses{};  ///< the likeliest sets, that one first
 };
 
 /// Costs by which a set of ropes may trail another one to be told of in RopePaths::lead.

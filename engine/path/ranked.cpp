@@ -9,7 +9,6 @@
 #include "geometry/pixel.hpp"
 #include "image/masks.hpp"
 #include "path/assemble.hpp"
-#include "path/bonds.hpp"
 #include "path/links.hpp"
 #include "path/search.hpp"
 
@@ -74,8 +73,7 @@ std::vector<Eigen::Vector2f> places_of(const std::vector<Eigen::Vector2f>& direc
 std::vector<Path> ranked_paths(const Strands& strands, const Region& region, const Frame& frame,
                                const TraceConfig& config) {
   std::vector<Path> paths;
-  const auto bonds = strands.seen != nullptr ? make_links(strands, region, frame)
-                                             : make_bonds(strands, region, frame);
+  const auto bonds = make_links(strands, region, frame);
   const int candidates = config.rope_length_m > 0 ? kLengthCandidates : 2;
   const int count = std::max(candidates, config.alternatives + 1);
   const auto ends = places_of(config.ends, region, frame.intrinsics);

@@ -14,7 +14,6 @@
 #include "image/masks.hpp"
 #include "image/resize.hpp"
 #include "path/fringe.hpp"
-#include "path/seams.hpp"
 #include "path/strokes.hpp"
 
 namespace flowdlo::path {
@@ -25,9 +24,6 @@ constexpr int kSpeckAreaPx = 12;            // below this no direction can be to
 constexpr float kSpeckWidths = 0.6F;        // components below this times width^2 are noise
 constexpr float kHoleSpecksWidths = 0.05F;  // holes below this times width^2 are noise
 constexpr float kHighlightWidths = 0.68F;   // filled half-width up to which a hole is a highlight
-constexpr float kNarrowShare = 0.75F;       // narrow parts below this share of the usual width
-constexpr float kStubbyWidths = 30.0F;      // strands beside each other, when shorter than this
-constexpr float kThinnestPx = 3.0F;         // strands thinner than this stand no seam
 constexpr float kHighlightArea = 6.0F;      // and its area in width^2, at most
 
 image::Mask crop(const Frame& frame, const image::Rect& box) {
@@ -41,15 +37,10 @@ image::Mask crop(const Frame& frame, const image::Rect& box) {
   return mask;
 }
 
-struct Widths {
-  float usual_px = 1;
-  float narrow_px = 1;
-};
-
 // Median width over ridges of the distance, each weighted by its distance (frayed borders have
 // many ridges, but low ones), and only those not much higher than the low ones: where strands lie
 // beside each other the mask is twice as wide.
-Widths ridge_widths(const image::Image<float>& distance) {
+float ridge_width(const image::Image<float>& distance) {
   std::vector<double> weight(512, 0.0);
   for (int v = 1; v + 1 < distance.height(); ++v) {
     const float* up = distance.row(v - 1);
@@ -77,48 +68,7 @@ Widths ridge_widths(const image::Image<float>& distance) {
   };
   const std::size_t narrow = quantile(0.2, weight.size());
   const std::size_t usual = quantile(0.5, std::min(weight.size(), narrow * 3 / 2 + 1));
-  const auto width = [](std::size_t bin) {
-    return std::max(1.0F, width_at(static_cast<float>(bin) * 0.5F));
-  };
-  return {width(usual), width(quantile(0.05, weight.size()))};
-}
-
-// The seams at the scale of the rope's width. Where all of the mask is short for its width, that
-// may be the width of two strands or three.
-image::Mask seams_of(const Region& region, const Widths& widths, const Frame& frame) {
-  const auto at = [&](float usual_px, float narrow_px) {
-    return find_seams(region.mask, {region.offset_px, usual_px, narrow_px}, frame);
-  };
-  const float narrow_px = std::max(widths.narrow_px, 0.5F * widths.usual_px);  // borders fray
-  const auto area = static_cast<float>(image::count_set(region.mask));
-  if (area > kStubbyWidths * widths.usual_px * widths.usual_px)
-    return at(widths.usual_px, widths.usual_px);
-  image::Mask seams;
-  if (narrow_px < kNarrowShare * widths.usual_px) seams = at(narrow_px, narrow_px);
-  for (const float share : {1.0F, 0.5F, 0.33F}) {
-    if (seams.empty())
-      seams = at(share * widths.usual_px, std::min(share * widths.usual_px, narrow_px));
-  }
-  return seams;
-}
-
-// Cuts the mask along its seams; leaves the width that one strand has.
-void cut_seams(const Frame& frame, Region& region) {
-  const Widths widths = ridge_widths(region.distance_px);
-  region.width_px = widths.usual_px;
-  region.seams = seams_of(region, widths, frame);
-  if (region.seams.empty()) return;
-  image::Mask parted = region.mask.clone();
-  image::erase(parted, region.seams);
-  image::Image<float> distance_px = image::distance_to_empty(parted);
-  const float width_px = ridge_widths(distance_px).usual_px;
-  if (width_px < kThinnestPx && widths.usual_px < 2 * kThinnestPx + 0.5F) {
-    region.seams = {};
-    return;
-  }
-  region.mask = std::move(parted);
-  region.distance_px = std::move(distance_px);
-  region.width_px = width_px;
+  return std::max(1.0F, width_at(static_cast<float>(usual) * 0.5F));
 }
 
 // Erases the components below `least_area`; returns the largest one's area, 0 if none is left.
@@ -216,36 +166,27 @@ Region cut(const Region& region, const std::vector<std::vector<Eigen::Vector2f>>
   }
   result.mask = region.mask.clone();
   image::erase(result.mask, drawn);
-  result.seams = region.seams.empty() ? drawn : image::either(region.seams, drawn);
   if (erase_specks(result.mask, 0) == 0) return region;
   result.distance_px = image::distance_to_empty(result.mask);
-  result.width_px = ridge_widths(result.distance_px).usual_px;
+  result.width_px = ridge_width(result.distance_px);
   return result;
 }
 
 Region magnified(const Region& region, int times) {
   Region result = region;
-  const auto enlarge = [times](const image::Mask& mask) {
-    return image::nearest<std::uint8_t>(mask, mask.size() * times);
-  };
-  result.mask = enlarge(region.mask);
-  if (!region.seams.empty()) result.seams = enlarge(region.seams);
+  result.mask = image::nearest<std::uint8_t>(region.mask, region.mask.size() * times);
   result.distance_px = image::distance_to_empty(result.mask);
-  result.width_px = ridge_widths(result.distance_px).usual_px;
+  result.width_px = ridge_width(result.distance_px);
   return result;
 }
 
 Region smoothed(const Region& region, int size_px) {
   Region result = region;
-  const bool cut = !region.seams.empty();
-  result.mask =
-      image::majority(cut ? image::either(region.mask, region.seams) : region.mask, size_px);
-  if (cut) image::erase(result.mask, region.seams);
+  result.mask = image::majority(region.mask, size_px);
   if (erase_specks(result.mask, kSpeckWidths * region.width_px * region.width_px) == 0) {
     return region;
   }
   fill_highlights(result.mask, region.width_px);
-  if (cut) image::erase(result.mask, region.seams);
   result.distance_px = image::distance_to_empty(result.mask);
   return result;
 }
@@ -270,14 +211,13 @@ Result<Region> clean(const Frame& frame, int ropes) {
                                          " pixels; check the segmentation"};
   }
   region.distance_px = image::distance_to_empty(region.mask);
-  cut_seams(frame, region);
+  region.width_px = ridge_width(region.distance_px);
   const image::Mask measured = region.mask.clone();
   erase_specks(region.mask, kSpeckWidths * region.width_px * region.width_px);
   fill_highlights(region.mask, region.width_px);
-  if (!region.seams.empty()) image::erase(region.mask, region.seams);
   if (image::same(region.mask, measured)) return region;
   region.distance_px = image::distance_to_empty(region.mask);
-  region.width_px = ridge_widths(region.distance_px).usual_px;
+  region.width_px = ridge_width(region.distance_px);
   return region;
 }
 

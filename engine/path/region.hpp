@@ -15,7 +15,6 @@ struct Region {
   image::Point offset_px;           ///< image position of the crop's (0, 0)
   image::Mask mask;                 ///< 0 or 1, with at least two empty pixels on every side
   image::Image<float> distance_px;  ///< to the nearest empty pixel
-  image::Mask seams;                ///< 1 where the mask was cut between strands; empty: nowhere
   float width_px = 0;               ///< the rope's width, a first guess
   bool filtered = false;            ///< as Strokes::filtered
 };
@@ -40,7 +39,7 @@ struct Region {
 /// strokes than one rope, or several, can have made (`strokes_of`).
 [[nodiscard]] Result<Region> clean(const Frame& frame, int ropes = 1);
 
-/// `region` cut along `lines`, which become seams; unchanged when nothing would be left of it.
+/// `region` cut along `lines`; unchanged when nothing would be left of it.
 [[nodiscard]] Region cut(const Region& region,
                          const std::vector<std::vector<Eigen::Vector2f>>& lines);
 

@@ -10,55 +10,14 @@
 #include <vector>
 
 #include "flowdlo/config.hpp"
-#include "geometry/pixel.hpp"
-#include "geometry/quantile.hpp"
 #include "path/assemble.hpp"
-#include "path/bonds.hpp"
 #include "path/rope_sets.hpp"
-#include "path/walk_costs.hpp"
 
 namespace flowdlo::path {
 namespace {
 
 constexpr std::size_t kSets = 24;
-constexpr float kWidthFrom = 1.0F;      // widths from a strand's end on which its width is measured
-constexpr float kWidthTo = 9.0F;        // and up to here
-constexpr float kWidthNoise = 0.12F;    // of the logarithm of one rope's width along it,
-constexpr float kWidthNoisePx = 0.7F;   // and pixels
-constexpr float kMostWidthCost = 4.0F;  // of a bond
-constexpr float kLeastShare = 0.02F;    // of a set that is worth telling of, beside the first
-
-// How wide the mask is at each end, [2 * strands]: in the median of the stretch that the crossing
-// there does not distort; 0 where there is none.
-std::vector<float> end_widths(const Strands& strands, const Region& region) {
-  std::vector<float> widths;
-  for (const Strand& strand : strands.list) {
-    for (int side = 0; side < 2; ++side) {
-      const auto& points = strand.points_px;
-      const auto count = static_cast<int>(points.size());
-      const int first = static_cast<int>(kWidthFrom * strands.scale_px);
-      const int last = std::min(count - first, static_cast<int>(kWidthTo * strands.scale_px));
-      std::vector<float> samples;
-      for (int i = first; i < last && !strand.doubled; ++i) {
-        const Eigen::Vector2f& p = points[side == 0 ? i : count - 1 - i];
-        if (!lit(region.mask, p)) continue;
-        samples.push_back(width_at(
-            region.distance_px.at(geometry::nearest_px(p.y()), geometry::nearest_px(p.x()))));
-      }
-      widths.push_back(samples.empty() ? 0 : geometry::median_of(samples));
-    }
-  }
-  return widths;
-}
-
-// What it costs that a rope is to go on wider or thinner; tends to a limit, for ropes that touch
-// look like one.
-float width_misfit(float a, float b) {
-  if (a <= 0 || b <= 0) return 0;
-  const float noise = kWidthNoise + kWidthNoisePx / std::min(a, b);
-  const float ratio = std::log(a / b) / noise;
-  return kMostWidthCost * (1 - std::exp(-0.5F * ratio * ratio / kMostWidthCost));
-}
+constexpr float kLeastShare = 0.02F;  // of a set that is worth telling of, beside the first
 
 // The strands that tell ways apart, the same for a way and its reverse.
 std::vector<int> key_of(const Traversal& way, const Strands& strands) {
@@ -148,25 +107,6 @@ Error no_set(int ropes, const Strands& strands) {
 
 }  // namespace
 
-std::vector<std::vector<Bond>> bonds_of_several(const Strands& strands, const Region& region,
-                                                const Frame& frame) {
-  auto bonds = make_bonds(strands, region, frame, true);
-  const std::vector<float> widths = end_widths(strands, region);
-  for (std::size_t from = 0; from < bonds.size(); ++from) {
-    if (strands.end(static_cast<int>(from)).leaves) {
-      const auto returns = [&](const Bond& bond) {
-        return bond.gap && strands.end(bond.to).leaves;
-      };
-      auto& list = bonds[from];
-      list.erase(std::remove_if(list.begin(), list.end(), returns), list.end());
-    }
-    for (Bond& bond : bonds[from]) {
-      bond.cost += width_misfit(widths[from], widths[static_cast<std::size_t>(bond.to)]);
-    }
-  }
-  return bonds;
-}
-
 Result<RopePaths> rope_paths(const Strands& strands, const std::vector<std::vector<Bond>>& bonds,
                              const Region& region, const Frame& frame, int ropes) {
   const auto sets = search_sets(strands, bonds, ropes, kSets);
@@ -183,7 +123,7 @@ Result<RopePaths> rope_paths(const Strands& strands, const std::vector<std::vect
     result.lead.push_back(lead_of(way, sets, strands));
   }
   if (result.ropes.empty()) return no_set(ropes, strands);
-  if (strands.seen == nullptr) result.guesses = guesses_of(sets, drawing);
+  result.guesses = guesses_of(sets, drawing);
   if (result.ropes.size() <= kMostRopes) return result;
   return Error{ErrorCode::kNoPath,
                fmt::format("path: expected at most {} ropes, got {} of a texture or of many "

@@ -3,7 +3,7 @@
 
 #include "flowdlo/frame.hpp"
 #include "flowdlo/result.hpp"
-#include "path/bonds.hpp"
+#include "path/links.hpp"
 #include "path/path.hpp"
 #include "path/region.hpp"
 #include "path/strands.hpp"
@@ -15,11 +15,5 @@ namespace flowdlo::path {
 [[nodiscard]] Result<RopePaths> rope_paths(const Strands& strands,
                                            const std::vector<std::vector<Bond>>& bonds,
                                            const Region& region, const Frame& frame, int ropes);
-
-/// The bonds of the mask's own strands, where there may be several ropes, which need not be of one
-/// width; one that leaves the image is not taken for another one that comes back.
-[[nodiscard]] std::vector<std::vector<Bond>> bonds_of_several(const Strands& strands,
-                                                              const Region& region,
-                                                              const Frame& frame);
 
 }  // namespace flowdlo::path

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "path/pairings.hpp"
-#include "path/walk_costs.hpp"
 
 namespace flowdlo::path {
 namespace {
@@ -35,11 +34,11 @@ class Ends {
     for (const auto& [ends, cost] : cheapest) pairs_.push_back({ends.first, ends.second, cost});
     for (int s = 0; s < static_cast<int>(strands.list.size()); ++s) {
       const Strand& strand = strands.list[s];
-      if (strand.ring && !strand.opened) pairs_.push_back({2 * s, 2 * s + 1, 0});
+      if (strand.ring) pairs_.push_back({2 * s, 2 * s + 1, 0});
     }
     bonds_ = static_cast<int>(pairs_.size());
     for (int s = 0; s < static_cast<int>(strands.list.size()); ++s) {
-      pairs_.push_back({2 * s, 2 * s + 1, left_out_cost(strands.list[s], strands)});
+      pairs_.push_back({2 * s, 2 * s + 1, left_out_energy(strands.list[s], strands)});
     }
   }
 
@@ -47,7 +46,7 @@ class Ends {
   [[nodiscard]] std::vector<RopeSet> sets(float price) const {
     std::vector<float> alone;
     for (int end = 0; end < 2 * static_cast<int>(strands_.list.size()); ++end) {
-      alone.push_back(std::max(0.0F, stop_cost(strands_.end(end)) + 0.5F * price));
+      alone.push_back(std::max(0.0F, strands_.end(end).end_cost + 0.5F * price));
     }
     std::vector<RopeSet> result;
     for (const Pairing& pairing : cheapest_pairings(alone, pairs_, kPairings)) {
@@ -127,7 +126,7 @@ std::vector<RopeSet> search_sets(const Strands& strands,
   const Ends ends(strands, bonds);
   const auto wanted = static_cast<std::size_t>(ropes);
   std::vector<RopeSet> found;
-  float price = strands.rope_cost;
+  float price = 0;
   float change = 0.5F;
   for (int step = 0; step <= kPriceSteps && found.empty(); ++step) {
     std::vector<RopeSet> sets = ends.sets(price);
@@ -135,12 +134,11 @@ std::vector<RopeSet> search_sets(const Strands& strands,
     const bool too_many = sets.front().ways.size() > wanted;
     for (RopeSet& set : sets) {
       if (ropes > 0 && set.ways.size() != wanted) continue;
-      for (const Traversal& way : set.ways)
-        set.cost += way.closed ? strands.ring_cost : strands.rope_cost;
+      for (const Traversal& way : set.ways) set.cost += way.closed ? kRingEnergy : 0;
       found.push_back(std::move(set));
     }
     change *= 2;
-    price = strands.rope_cost + (too_many ? change : -change);
+    price = too_many ? change : -change;
   }
   std::stable_sort(found.begin(), found.end(), cheaper);
   if (found.size() > count) found.resize(count);

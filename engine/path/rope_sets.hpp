@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "path/bonds.hpp"
+#include "path/links.hpp"
 #include "path/search.hpp"
 #include "path/strands.hpp"
 
@@ -16,7 +16,7 @@ struct RopeSet {
 
 /// At most `count` sets of `ropes` ways, or with 0 of any number, cheapest first; empty where there
 /// are none. A set pays for its bonds, for where its ways end, for what it leaves out, and for each
-/// way Strands::rope_cost, or ring_cost where it is closed. Every end of a strand has one bond at
+/// closed way kRingEnergy. Every end of a strand has one bond at
 /// most and every strand is either used or left out, so that a set is a pairing of ends
 /// (`cheapest_pairings`): exact for any number of ropes as long as that is. A number that is asked
 /// for comes from the price of one more rope at which it is the cheapest one. Deterministic.

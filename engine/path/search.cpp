@@ -8,8 +8,6 @@
 #include <unordered_map>
 #include <utility>
 
-#include "path/walk_costs.hpp"
-
 namespace flowdlo::path {
 namespace {
 
@@ -39,7 +37,7 @@ class Searcher {
     uncovered_.resize(n);
     bound_.resize(n);
     for (std::size_t s = 0; s < n; ++s) {
-      uncovered_[s] = left_out_cost(strands.list[s], strands);
+      uncovered_[s] = left_out_energy(strands.list[s], strands);
       bound_[s] = uncovered_[s];
       for (int side = 0; side < 2; ++side) {
         const auto& list = bonds[2 * s + side];
@@ -73,7 +71,7 @@ class Searcher {
   }
 
   [[nodiscard]] float stop_cost(int end, const std::vector<Eigen::Vector2f>& known) const {
-    const float cost = path::stop_cost(strands_.end(end));
+    const float cost = strands_.end(end).end_cost;
     if (known.empty()) return cost;
     float near = 0;
     for (const Eigen::Vector2f& place : known) {

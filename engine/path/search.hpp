@@ -5,7 +5,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "path/bonds.hpp"
+#include "path/links.hpp"
 #include "path/strands.hpp"
 
 namespace flowdlo::path {

@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "geometry/quantile.hpp"
-#include "path/walk_costs.hpp"
 
 namespace flowdlo::path {
 namespace {

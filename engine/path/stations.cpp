@@ -28,11 +28,6 @@ constexpr float kUsualShare = 1.5F;  // of the narrow parts' width: usual up to 
 constexpr float kSingleShare = 1.3F;    // of the narrow parts' width: one strand up to this
 constexpr float kFewestNarrow = 0.04F;  // share of the stations that are one strand
 
-// Whether the mask was cut where it ends, at `edge`.
-bool seam_at(const Region& region, const Vector2f& edge, const Vector2f& outwards) {
-  return lit(region.seams, edge + 0.5F * outwards) || lit(region.seams, edge + 1.2F * outwards);
-}
-
 Line measured(const Segment& segment, const Region& region, float width_px) {
   const image::Mask& mask = region.mask;
   const int half = std::clamp(static_cast<int>(std::lround(0.5F * width_px)), 2, 12);
@@ -42,11 +37,7 @@ Line measured(const Segment& segment, const Region& region, float width_px) {
   Line line;
   for (int i = 0; i <= last; ++i) {
     const Vector2f along = points[std::min(i + half, last)] - points[std::max(i - half, 0)];
-    Station station = across(mask, points[i], along, most);
-    station.seamed = !region.seams.empty() && station.width_px > 0 &&
-                     (seam_at(region, station.edge(1), station.normal) ||
-                      seam_at(region, station.edge(-1), -station.normal));
-    line.push_back(station);
+    line.push_back(across(mask, points[i], along, most));
   }
   return line;
 }
@@ -113,12 +104,12 @@ void calm(std::vector<Line>& lines, const Cover& cover, float width_px) {
   }
 }
 
-// The size that a line keeps between two stations, whole ones without seams; 0 where it is not
+// The size that a line keeps between two stations, whole ones; 0 where it is not
 // even.
 float even(const Line& line, std::size_t first, std::size_t length) {
   std::vector<float> sizes;
   for (std::size_t k = first; k < first + length; ++k) {
-    if (!line[k].whole || line[k].seamed) return 0;
+    if (!line[k].whole) return 0;
     sizes.push_back(line[k].size_px);
   }
   const float high = quantile(sizes, 0.85F);
@@ -144,7 +135,7 @@ float usual_size(const std::vector<Line>& lines) {
   std::vector<float> sizes;
   for (const Line& line : lines) {
     for (const Station& station : line) {
-      if (station.whole && !station.seamed) sizes.push_back(station.size_px);
+      if (station.whole) sizes.push_back(station.size_px);
     }
   }
   if (sizes.empty()) return 0;
@@ -208,7 +199,7 @@ float single_size(const std::vector<Line>& lines, float usual_px) {
   for (const Line& line : lines) {
     all += line.size();
     for (const Station& station : line) {
-      if (station.whole && !station.seamed && station.size_px <= kSingleShare * narrow) {
+      if (station.whole && station.size_px <= kSingleShare * narrow) {
         single.push_back(station.size_px);
       }
     }

@@ -21,10 +21,9 @@ struct Station {
   Eigen::Vector2f middle_px{0, 0};  ///< of the mask
   Eigen::Vector2f normal{0, 0};     ///< to its left
   float width_px = 0;
-  float nearer = 1;     ///< how many times larger things look than where the rope usually is
-  float size_px = 0;    ///< the width there
-  bool whole = true;    ///< no occluder hides a side
-  bool seamed = false;  ///< nor the depth parts it there from a strand that may hide it
+  float nearer = 1;   ///< how many times larger things look than where the rope usually is
+  float size_px = 0;  ///< the width there
+  bool whole = true;  ///< no occluder hides a side
 
   [[nodiscard]] Eigen::Vector2f edge(float side) const {
     return middle_px + 0.5F * side * width_px * normal;

@@ -176,17 +176,7 @@ Result<Answer> trace_axes(const Frame& frame, const field::Axes& axes, const Tra
 Strands strands_of(const Frame& frame, const field::Axes& axes, const Region& region) {
   auto stretches = cut_at_joins(stretches_of(axes, region), axes.width_px);
   see_tips(stretches, axes, region);
-  Strands strands = make_strands(stretches, axes.width_px, region, frame);
-  strands.seen = &axes.view;
-  strands.rope_cost = 0;  // its ends' cost is all
-  for (Strand& strand : strands.list) {
-    for (StrandEnd& end : strand.ends) {
-      end.look = look_of(strand.points_px, strands.scale_px, region, frame, axes.view);
-      end.end_cost = energy_of(stop_terms(end), kStopWeights);
-      std::reverse(strand.points_px.begin(), strand.points_px.end());
-    }
-  }
-  return strands;
+  return make_strands(stretches, axes.width_px, region, frame, axes.view);
 }
 
 Result<Traversals> trace_strands(const Frame& frame, const field::Axes& axes,
@@ -216,11 +206,11 @@ Result<RopePaths> trace_ropes(const Frame& frame, const field::Axes& axes, int r
     const auto region = clean(seen, ropes);
     if (!region) return region.error();
     Strands strands = strands_of(seen, lines, *region);
+    strands.several = ropes != 1;
     const Opinion opinion =
         opinion_on(strands, copy == nullptr ? guesses : guesses_in(*copy, guesses), *region);
     heed(strands, opinion);
-    return rope_paths(strands, make_links(strands, *region, seen, ropes != 1, opinion), *region,
-                      seen, ropes);
+    return rope_paths(strands, make_links(strands, *region, seen, opinion), *region, seen, ropes);
   };
   return trace_axes<RopePaths>(frame, axes, trace);
 }

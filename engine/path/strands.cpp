@@ -12,8 +12,6 @@
 #include "path/cover.hpp"
 #include "path/crossings.hpp"
 #include "path/midline.hpp"
-#include "path/rim.hpp"
-#include "path/walk_costs.hpp"
 
 namespace flowdlo::path {
 namespace {
@@ -21,11 +19,9 @@ namespace {
 using Eigen::Vector2f;
 using Points = std::vector<Vector2f>;
 
-constexpr float kFullShare = 0.85F;      // of the usual half width: a tip begins below
-constexpr float kTipWidths = 5.0F;       // the stretch that tells what is usual
-constexpr float kDoubledWidths = 1.25F;  // the mask is at least this wide,
-constexpr float kDoubledLength = 20.0F;  // for no longer than this
-constexpr float kDepthWidths = 3.0F;     // length over which a depth is fitted
+constexpr float kFullShare = 0.85F;   // of the usual half width: a tip begins below
+constexpr float kTipWidths = 5.0F;    // the stretch that tells what is usual
+constexpr float kDepthWidths = 3.0F;  // length over which a depth is fitted
 constexpr int kDepthSamples = 16;
 constexpr float kSlopeWidths = 2.0F;     // a slope over this length counts half
 constexpr float kCutWidths = 3.0F;       // how far ahead an occluder is looked for
@@ -53,10 +49,8 @@ int distorted(const Points& points, const image::Image<float>& distance, float s
 }
 
 // Cuts what thinning leaves skewed at a tip (half a width; all of the corner where an occluder cut
-// the rope aslant, but for points that follow its rim), then follows the direction to the mask's
-// edge.
-void extend_tip(Points& points, std::vector<std::uint8_t>& aside, const Region& region,
-                float width_px, float scale_px) {
+// the rope aslant), then follows the direction to the mask's edge.
+void extend_tip(Points& points, const Region& region, float width_px, float scale_px) {
   std::vector<float> distances;
   const auto near = std::min(points.size(), static_cast<std::size_t>(kTipWidths * scale_px));
   for (std::size_t i = 0; i < near; ++i) distances.push_back(at(region.distance_px, points[i]));
@@ -64,11 +58,10 @@ void extend_tip(Points& points, std::vector<std::uint8_t>& aside, const Region& 
   const auto most = std::min(points.size() / 3, static_cast<std::size_t>(2.5F * width_px));
   std::size_t cut = 0;
   while (cut < most && ((points[cut] - points[0]).norm() < 0.5F * width_px ||
-                        (aside[cut] == 0 && at(region.distance_px, points[cut]) < full))) {
+                        at(region.distance_px, points[cut]) < full)) {
     ++cut;
   }
   points.erase(points.begin(), points.begin() + static_cast<std::ptrdiff_t>(cut));
-  aside.erase(aside.begin(), aside.begin() + static_cast<std::ptrdiff_t>(cut));
   const Vector2f out = direction_at_front(points, scale_px);
   const Vector2f start = points.front();
   Points added;
@@ -79,7 +72,6 @@ void extend_tip(Points& points, std::vector<std::uint8_t>& aside, const Region& 
     added.push_back(p);
   }
   points.insert(points.begin(), added.rbegin(), added.rend());
-  aside.insert(aside.begin(), added.size(), std::uint8_t{0});
 }
 
 // Median of the valid depths of the mask in the five pixels around `p`; 0 without any.
@@ -168,67 +160,50 @@ void measure_end(const Points& points, const Region& region, const Frame& frame,
       cover.beyond(end.point_px, end.outward, end.depth_m, kCutWidths * scale_px) == Sight::kHidden;
 }
 
+// How much an end of the mask's own strand looks like the rope's, as no field says it.
+float plain_tip(const StrandEnd& end, const Cover& cover, float scale_px) {
+  if (!end.tip()) return 0;
+  const bool covered = end.cut || cover.meets(end.point_px, end.outward, kCutWidths * scale_px);
+  return covered ? kCoveredTip : kPlainTip;
+}
+
+// What the end at the front of `points` looks like, and what it costs to stop there.
+void look_at_end(const Points& points, const Region& region, const Frame& frame, float scale_px,
+                 const field::FieldView& seen, StrandEnd& end) {
+  end.look = look_of(points, scale_px, region, frame, seen);
+  end.end_cost = energy_of(stop_terms(end), kStopWeights);
+}
+
 Strand make_strand(const Segment& segment, const Graph& graph, const Crossings& crossings,
                    const Region& region, const Frame& frame, const Strands& sizes) {
   const Cover cover(region, frame, sizes.width_px);
   Strand strand;
   strand.ring = segment.ring();
-  strand.opened = segment.opened;
   strand.covers_px = segment.length_px;
   const int half = std::clamp(static_cast<int>(std::lround(0.3F * sizes.width_px)), 1, 8);
-  Points points = segment.points_px;
-  points = smoothed(std::move(points), half);
+  Points points = smoothed(segment.points_px, half);
   recentre(points, region.mask, sizes.width_px);
-  std::vector<std::uint8_t> aside = centre_on_rim(points, cover, sizes.width_px);
   for (int side = 0; side < 2; ++side) {
     StrandEnd& end = strand.ends[side];
     end.node = segment.node[side];
-    const bool tip = strand.ring || graph.nodes[end.node].ends.size() == 1;
+    const bool tip = strand.ring || graph.at_tip(segment, side);
     end.crossing = tip ? -1 : crossings.of(end.node);
     if (!strand.ring) end.node_px = graph.nodes[end.node].position_px;
     if (!strand.ring && !tip) {
       const int cut = distorted(points, region.distance_px, sizes.scale_px, sizes.width_px);
       points.erase(points.begin(), points.begin() + cut);
-      aside.erase(aside.begin(), aside.begin() + cut);
-      if (graph.nodes[segment.node[1 - side]].ends.size() == 1) {
-        strand.covers_px -= graph.nodes[end.node].distance_px;
-      }
+      if (graph.at_tip(segment, 1 - side)) strand.covers_px -= graph.nodes[end.node].distance_px;
     } else if (!strand.ring) {
-      extend_tip(points, aside, region, sizes.width_px, sizes.scale_px);
+      extend_tip(points, region, sizes.width_px, sizes.scale_px);
     }
     measure_end(points, region, frame, cover, sizes.scale_px, end);
-    end.end_cost = end.cut ? kEndAtCut : 0;
+    end.tip_seen = plain_tip(end, cover, sizes.scale_px);
+    look_at_end(points, region, frame, sizes.scale_px, {}, end);
     std::reverse(points.begin(), points.end());
-    std::reverse(aside.begin(), aside.end());
   }
   strand.covers_px = std::max(0.0F, strand.covers_px);
   strand.points_px = std::move(points);
   return strand;
-}
-
-Bridge make_bridge(const Segment& segment, const Region& region, const Strands& sizes) {
-  float least = 2 * sizes.width_px;
-  for (const Vector2f& p : segment.points_px) {
-    least = std::min(least, width_at(at(region.distance_px, p)));
-  }
-  const int half = std::clamp(static_cast<int>(std::lround(0.5F * sizes.width_px)), 1, 8);
-  return {smoothed(segment.points_px, half), segment.node, least};
-}
-
-// True where the mask along the segment is too wide for one rope, between crossings.
-bool doubled(const Segment& segment, const Graph& graph, const Region& region,
-             const Strands& sizes) {
-  if (segment.ring() || segment.node[0] == segment.node[1]) return false;
-  if (segment.length_px > kDoubledLength * sizes.scale_px) return false;
-  for (const int node : segment.node) {
-    if (graph.nodes[node].ends.size() < 3) return false;
-  }
-  std::vector<float> widths;
-  const std::size_t margin = segment.points_px.size() / 5;
-  for (std::size_t i = margin; i + margin < segment.points_px.size(); ++i) {
-    widths.push_back(width_at(at(region.distance_px, segment.points_px[i])));
-  }
-  return !widths.empty() && geometry::median_of(widths) >= kDoubledWidths * sizes.width_px;
 }
 
 // The ends that meet at a node lie left and right of their middle.
@@ -251,11 +226,30 @@ void find_forks(Strands& strands) {
 
 }  // namespace
 
+StopTerms stop_terms(const StrandEnd& end) {
+  StopTerms terms{};
+  terms[kStopStart] = 1;
+  terms[kStopUnseen] = end.leaves ? 0 : 1 - end.tip_seen;
+  terms[kStopHeard] = end.goes_on;
+  return terms;
+}
+
+float width_px_of(const Strand& strand, const Strands& strands) {
+  const float sum = strand.ends[0].look.width_px + strand.ends[1].look.width_px;
+  const bool known = strand.ends[0].look.width_px > 0 && strand.ends[1].look.width_px > 0;
+  return known ? std::max(kLeastScalePx, 0.5F * sum) : strands.scale_px;
+}
+
+float left_out_energy(const Strand& strand, const Strands& strands) {
+  return kLeftOutEnergy * strand.covers_px / width_px_of(strand, strands);
+}
+
 Strands make_strands(const std::vector<Stretch>& stretches, float width_px, const Region& region,
-                     const Frame& frame) {
+                     const Frame& frame, const field::FieldView& seen) {
   Strands strands;
   strands.width_px = width_px;
   strands.scale_px = std::max(kLeastScalePx, width_px);
+  strands.seen = &seen;
   const Cover cover(region, frame, width_px);
   for (const Stretch& stretch : stretches) {
     Strand strand;
@@ -269,6 +263,7 @@ Strands make_strands(const std::vector<Stretch>& stretches, float width_px, cons
       StrandEnd& end = strand.ends[side];
       measure_end(points, region, frame, cover, strands.scale_px, end);
       end.tip_seen = stretch.tips[side];
+      look_at_end(points, region, frame, strands.scale_px, seen, end);
       std::reverse(points.begin(), points.end());
     }
     strand.points_px = std::move(points);
@@ -281,17 +276,15 @@ Strands make_strands(const Graph& graph, const Region& region, const Frame& fram
   Strands strands;
   strands.width_px = graph.width_px;
   strands.scale_px = std::max(kLeastScalePx, graph.width_px);
+  const int half = std::clamp(static_cast<int>(std::lround(0.5F * strands.width_px)), 1, 8);
   const Crossings crossings(graph, region.distance_px, strands.scale_px);
   for (int i = 0; i < static_cast<int>(graph.segments.size()); ++i) {
     const Segment& segment = graph.segments[i];
     if (!segment.alive || segment.points_px.size() < 2) continue;
     if (crossings.inner(i)) {
-      strands.bridges.push_back(make_bridge(segment, region, strands));
+      strands.bridges.push_back({smoothed(segment.points_px, half), segment.node});
     } else {
       strands.list.push_back(make_strand(segment, graph, crossings, region, frame, strands));
-      if (!doubled(segment, graph, region, strands)) continue;
-      strands.list.back().doubled = true;
-      strands.bridges.push_back(make_bridge(segment, region, strands));
     }
   }
   find_forks(strands);

@@ -37,7 +37,7 @@ enum class FieldChoice {
 enum class Quality {
   kFull,  ///< Config::euler_steps and Config::draws
   kFast,  ///< the K and D that, measured, lose nothing: the weights' metadata hold them; and none
-          ///< where what the strand field shows is sure
+          ///< where the calibrated gate has a strand field, with which it never took a draw
 };
 
 /// Most ropes of one frame that are told apart.
@@ -70,10 +70,10 @@ struct Config {
   int threads = 0;           ///< of the CPU back end; 0: one for each core
 
   /// Milliseconds that an estimate may take; 0: as long as it does. Of the model, the strand field
-  /// and the reading of the eroded mask, what would end too late is left out, going by what earlier
-  /// frames took; Estimate::left_out says what. Where the strand field leaves doubt or is left out,
-  /// the mask is read whatever time is left: it takes 5 to 30 ms, on masks that are no rope up to a
-  /// second. With a limit an estimate depends on how busy the machine is.
+  /// and further readings of a doubtful frame, what would end too late is left out, going by what
+  /// earlier frames took; Estimate::left_out says what. Where the strand field is left out the mask
+  /// is read, whatever time is left: it takes 2 to 30 ms. With a limit an estimate depends on how
+  /// busy the machine is.
   double budget_ms = 0;
 
   /// Largest frame for which memory is set aside. A larger one still works: its first call

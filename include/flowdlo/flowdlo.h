@@ -244,7 +244,7 @@ enum {
 enum {
   FLOWDLO_LEFT_OUT_MODEL = 1,   /* the model's draws: the estimate is a prior */
   FLOWDLO_LEFT_OUT_FIELD = 2,   /* the strand field, though there was doubt */
-  FLOWDLO_LEFT_OUT_READINGS = 4 /* the eroded mask, though there was doubt */
+  FLOWDLO_LEFT_OUT_READINGS = 4 /* a closer look and the mask alone, though there was doubt */
 };
 
 /* The names that JSON, Python and ROS give to these values: "prior", "runner_up", "no_rope",
@@ -268,7 +268,7 @@ typedef struct flowdlo_estimate {
   int32_t source;                 /* FLOWDLO_SOURCE_: where the nodes come from */
   int32_t draw;                   /* index of the returned draw; -1: the prior */
   int32_t calibrated;             /* 1: the calibrated gate decided, 0: that of the thesis */
-  int32_t readings;               /* of the frame: strand field, mask, eroded mask */
+  int32_t readings;               /* of the frame: strand field, closer, mask alone */
   uint32_t doubts;                /* FLOWDLO_DOUBT_ bits; 0: none */
   int32_t alternatives;           /* how many flowdlo_estimator_alternative has */
   int32_t accepted_draws;         /* draws that the gate found plausible */

@@ -59,10 +59,6 @@ std::optional<GateSample> measure(const synth::SyntheticFrame& scene, flow::Samp
   const estimator::Judge judge(true, none, *conditions, frame, rope_length_m, refine);
   const auto first = judge.of_first(false);
   if (!first) return std::nullopt;
-  const bool seen = conditions->axes.has_value();
-  if (!*first && seen && !estimator::read_mask(frame, reading, timings, *conditions)) {
-    return std::nullopt;
-  }
   const auto drawn = draw(frame, *conditions, sampler, draws);
   if (!drawn) return std::nullopt;
   GateSample sample;
@@ -74,9 +70,7 @@ std::optional<GateSample> measure(const synth::SyntheticFrame& scene, flow::Samp
   threads::Pool alone(1);
   const auto look =
       *first ? (*first)->look
-             : estimator::Rereading(alone, estimator::worth_rereading(*conditions, frame), field,
-                                    *conditions, frame, reading)
-                   .finish();
+             : estimator::Rereading(alone, true, field, *conditions, frame, reading).finish();
   sample.candidates =
       estimator::list_candidates(look, conditions->paths.rope_width_px, drawn->prediction,
                                  drawn->reports, drawn->assigned, frame, rope_length_m);

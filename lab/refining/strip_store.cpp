@@ -65,10 +65,7 @@ Result<std::optional<StripSample>> sample_of(const DataConfig& config, std::uint
   const auto conditions = estimator::gather(frame, {}, timings);
   if (!conditions) return std::optional<StripSample>();
   threads::Pool alone(1);
-  const auto look =
-      estimator::Rereading(alone, seen && estimator::worth_rereading(*conditions, frame), field,
-                           *conditions, frame, {})
-          .finish();
+  const auto look = estimator::Rereading(alone, seen, field, *conditions, frame, {}).finish();
   const auto candidates =
       estimator::list_candidates(look, conditions->paths.rope_width_px, {}, {}, {}, frame, 0);
   const auto& chosen = candidates[gate::choose_calibrated(candidates).chosen];

@@ -53,6 +53,8 @@ TEST_P(Memory, OfFramesThatAreDoneIsFree) {
                                  .euler_steps = 1,
                                  .draws = 1,
                                  .gate = GateChoice::kCalibrated,
+                                 .field = FieldChoice::kStrands,
+                                 .field_weights = FLOWDLO_FIELD_WEIGHTS,
                                  .threads = 3});
   if (!made && made.error().code == ErrorCode::kNoDevice) GTEST_SKIP() << made.error().message;
   ASSERT_TRUE(made) << made.error().message;

@@ -13,39 +13,26 @@ namespace {
 
 class LookAgain : public ::testing::Test {
  protected:
-  [[nodiscard]] estimator::SecondLook look(int threads = 1) const {
-    threads::Pool pool(threads);
-    return look(worth_rereading(), pool);
-  }
-  [[nodiscard]] estimator::SecondLook look_again(int threads = 1) const {
-    threads::Pool pool(threads);
-    return look(true, pool);
-  }
-  /// The shipped network beside the readings of the mask.
-  [[nodiscard]] estimator::SecondLook look_with_field(int threads = 1) const {
+  /// As a `doubtful` frame is read again, by the shipped network and by the mask.
+  [[nodiscard]] estimator::SecondLook look(bool doubtful, int threads = 1) const {
     auto weights = weights::load_field(FLOWDLO_FIELD_WEIGHTS);
     if (!weights) throw std::runtime_error(weights.error().message);
     auto network =
         field::Network::create(std::make_shared<const weights::FieldWeights>(*std::move(weights)),
                                [] { return reference::create_program(1); });
     threads::Pool pool(threads);
-    return estimator::Rereading(pool, true, &*network, conditions_, frame_, {}).finish();
+    return estimator::Rereading(pool, doubtful, &*network, conditions_, frame_, {}).finish();
   }
   [[nodiscard]] bool worth_rereading() const {
     return estimator::worth_rereading(conditions_, frame_);
   }
-  /// As if the first reading had lost its way by that much.
+  /// As if the first reading had lost its way by that much, half way along the rope.
   void lead_astray(float shift_m) {
     conditions_.hypotheses.resize(1);
-    for (Point3& node : conditions_.hypotheses.front().prior.nodes) node.y += shift_m;
+    auto& nodes = conditions_.hypotheses.front().prior.nodes;
+    for (std::size_t i = kNodes / 2; i < kNodes; ++i) nodes[i].y += shift_m;
   }
 
- private:
-  [[nodiscard]] estimator::SecondLook look(bool worth, threads::Pool& pool) const {
-    return estimator::Rereading(pool, worth, nullptr, conditions_, frame_, {}).finish();
-  }
-
- protected:
   testing::WaveFrame wave_;
   Frame frame_ = wave_.frame();
   estimator::Conditions conditions_ = testing::gathered(frame_);
@@ -53,15 +40,31 @@ class LookAgain : public ::testing::Test {
 
 TEST_F(LookAgain, HoweverClearAFrameIsOtherReadingsSayWhatTheyHold) {
   EXPECT_TRUE(worth_rereading());
-  const auto again = look();
-  EXPECT_EQ(again.readings, 2);
+  const auto again = look(true);
+  EXPECT_EQ(again.readings, 2) << "the mask was the first reading";
   EXPECT_NEAR(again.hypotheses.front().votes, 1, 1e-5);
   EXPECT_GT(again.hypotheses.front().odds, 0.9F);
+  EXPECT_GT(again.hypotheses.front().seen_odds, 0.9F);
   EXPECT_EQ(again.hypotheses.front().reading, 0);
   for (std::size_t h = 1; h < again.hypotheses.size(); ++h) {
     EXPECT_EQ(again.hypotheses[h].votes, 0);
     EXPECT_LT(again.hypotheses[h].odds, 0.1F);
   }
+}
+
+TEST_F(LookAgain, AFrameWithoutDoubtIsReadOnce) { EXPECT_EQ(look(false).readings, 1); }
+
+TEST_F(LookAgain, OfATangleThatTheFieldSawTheMaskIsReadAllTheSame) {
+  conditions_.paths.strands = path::kMostRereadStrands + 1;
+  conditions_.of_mask = false;
+  EXPECT_EQ(look(true).readings, 2);
+}
+
+TEST_F(LookAgain, WithoutAFieldTheMaskIsAllThereIs) {
+  threads::Pool pool(1);
+  const auto alone = estimator::Rereading(pool, true, nullptr, conditions_, frame_, {}).finish();
+  EXPECT_EQ(alone.readings, 1);
+  EXPECT_FALSE(alone.left_out);
 }
 
 TEST_F(LookAgain, TheFirstReadingAloneIsOfOneMind) {
@@ -77,7 +80,7 @@ TEST_F(LookAgain, TheFirstReadingAloneIsOfOneMind) {
 TEST_F(LookAgain, ATangleIsReadOnce) {
   conditions_.paths.strands = path::kMostRereadStrands + 1;
   EXPECT_FALSE(worth_rereading());
-  EXPECT_EQ(look().readings, 1);
+  EXPECT_EQ(look(true).readings, 1);
 }
 
 TEST_F(LookAgain, WhatHasNoRopesShapeIsReadOnce) {
@@ -89,52 +92,31 @@ TEST_F(LookAgain, WhatHasNoRopesShapeIsReadOnce) {
 TEST_F(LookAgain, WhatTheFirstReadingMissedComesBehindWithTheVotesOfTheOthers) {
   const auto right = conditions_.hypotheses.front().prior.nodes;
   lead_astray(0.2F);
-  const auto again = look_again();
+  conditions_.of_mask = false;  // as if its paths had been known
+  const auto again = look(true);
+  ASSERT_EQ(again.readings, 3);
   ASSERT_GE(again.hypotheses.size(), 2U);
-  const auto others = static_cast<float>(again.readings - 1);
-  EXPECT_NEAR(again.hypotheses[0].votes, 1 / (others + 1), 1e-5);
-  EXPECT_NEAR(again.hypotheses[1].votes, others / (others + 1), 1e-5);
+  EXPECT_NEAR(again.hypotheses[0].votes, 1 / 3.0F, 1e-5);
+  EXPECT_NEAR(again.hypotheses[1].votes, 2 / 3.0F, 1e-5);
   EXPECT_GT(again.hypotheses[1].reading, 0);
+  EXPECT_GT(again.hypotheses[1].seen_odds, 0.9F);
   for (std::size_t i = 0; i < kNodes; ++i) {
     EXPECT_NEAR(again.hypotheses[1].prior.nodes[i].y, right[i].y, 0.01F);
   }
 }
 
-TEST_F(LookAgain, WithTheStrandFieldOneMoreReadingOfTheMaskIsEnoughToFindTheRope) {
-  const auto right = conditions_.hypotheses.front().prior.nodes;
-  lead_astray(0.2F);
-  const auto look = look_with_field();
-  ASSERT_EQ(look.readings, 3);
-  ASSERT_GE(look.hypotheses.size(), 2U);
-  EXPECT_NEAR(look.hypotheses[1].votes, 2 / 3.0F, 1e-5);
-  EXPECT_GT(look.hypotheses[1].seen_odds, 0.9F);
-  for (std::size_t i = 0; i < kNodes; ++i) {
-    EXPECT_NEAR(look.hypotheses[1].prior.nodes[i].y, right[i].y, 0.01F);
-  }
-}
-
-TEST_F(LookAgain, TheStrandFieldGivesTheSameOnAnyNumberOfThreads) {
-  lead_astray(0.2F);
-  const auto one = look_with_field(1);
-  const auto four = look_with_field(4);
-  ASSERT_EQ(one.hypotheses.size(), four.hypotheses.size());
-  for (std::size_t h = 0; h < one.hypotheses.size(); ++h) {
-    EXPECT_EQ(one.hypotheses[h].odds, four.hypotheses[h].odds);
-    for (std::size_t i = 0; i < kNodes; ++i) {
-      EXPECT_EQ(one.hypotheses[h].prior.nodes[i].x, four.hypotheses[h].prior.nodes[i].x);
-    }
-  }
-}
-
 TEST_F(LookAgain, NumberOfThreadsChangesNothing) {
   lead_astray(0.2F);
-  const auto one = look_again(1);
-  const auto four = look_again(4);
+  conditions_.of_mask = false;
+  const auto one = look(true, 1);
+  const auto four = look(true, 4);
   ASSERT_EQ(one.hypotheses.size(), four.hypotheses.size());
   for (std::size_t h = 0; h < one.hypotheses.size(); ++h) {
     EXPECT_EQ(one.hypotheses[h].votes, four.hypotheses[h].votes);
     EXPECT_EQ(one.hypotheses[h].odds, four.hypotheses[h].odds);
-    EXPECT_EQ(one.hypotheses[h].prior.nodes[9].x, four.hypotheses[h].prior.nodes[9].x);
+    for (std::size_t i = 0; i < kNodes; ++i) {
+      EXPECT_EQ(one.hypotheses[h].prior.nodes[i].x, four.hypotheses[h].prior.nodes[i].x);
+    }
   }
 }
 

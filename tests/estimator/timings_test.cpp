@@ -19,16 +19,18 @@ double others_ms(const Timings& timings) {
          timings.mask_field_ms + timings.model_ms + timings.gate_ms;
 }
 
-/// Of a frame that leaves doubt, so that its mask is read again: of eight calls, the one whose
+/// Of a frame that leaves the strand field in doubt, so that it is read again: of eight calls, the one whose
 /// stages account best for its time, as a busy machine may stop a thread between two readings of
 /// the clock.
 Timings timings_of(int threads) {
-  auto estimator = Estimator::create({.weights = FLOWDLO_WEIGHTS,
-                                      .device = "cpu",
-                                      .euler_steps = 1,
-                                      .draws = 1,
-                                      .gate = GateChoice::kCalibrated,
-                                      .threads = threads});
+  Config config{.weights = FLOWDLO_WEIGHTS,
+                .device = "cpu",
+                .euler_steps = 1,
+                .draws = 1,
+                .gate = GateChoice::kCalibrated,
+                .threads = threads};
+  config.field_weights = FLOWDLO_FIELD_WEIGHTS;
+  auto estimator = Estimator::create(config);
   if (!estimator) throw std::runtime_error(estimator.error().message);
   const testing::RingFrame ring;
   const auto unaccounted = [](const Timings& timings) {
@@ -38,7 +40,7 @@ Timings timings_of(int threads) {
   for (int call = 0; call < 8; ++call) {
     auto estimate = estimator->estimate(ring.frame());
     if (!estimate) throw std::runtime_error(estimate.error().message);
-    if (estimate->readings < 2) throw std::runtime_error("the mask was read once only");
+    if (estimate->readings < 2) throw std::runtime_error("the frame was read once only");
     if (!best || unaccounted(estimate->timings) < unaccounted(*best)) best = estimate->timings;
   }
   return *best;

@@ -1,11 +1,9 @@
-// The path alone, on small masks, as they are and eroded: an error, or traversals that keep what
-// path.hpp promises.
+// The path alone, on small masks: an error, or traversals that keep what path.hpp promises.
 #include "path/path.hpp"
 
 #include <cmath>
 
 #include "drawn_frame.hpp"
-#include "path/eroded.hpp"
 #include "promise.hpp"
 #include "target.hpp"
 
@@ -76,6 +74,5 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     const auto again = flowdlo::path::trace(frame, config);
     promise(again && same(*again, *traversals), "the same frame gives the same paths");
   }
-  check(flowdlo::path::trace_eroded(frame, traversals->rope_width_px, config), frame);
   return 0;
 }

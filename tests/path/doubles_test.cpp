@@ -165,16 +165,6 @@ TEST(Ring, WithoutEndsIsSaidToBeOne) {
   EXPECT_TRUE(traced->ranked.front().ring);
 }
 
-TEST(Ring, IsCutOpenAtItsNotch) {
-  const Canvas canvas =
-      Canvas().stroke(ring(120), 15).erase({319, 106, 3, 10}).erase({319, 123, 3, 9});
-  const auto traced = path::trace(canvas.frame());
-  ASSERT_TRUE(traced);
-  const path::Path& path = traced->ranked.front();
-  EXPECT_TRUE(path.ring);
-  EXPECT_LT((path.points_px.front() - Vector2f(320, 120)).norm(), 8.0F);
-}
-
 TEST(HiddenEnds, AreNoneWhereBothTipsShow) {
   const auto traced = path::trace(Canvas().stroke({{100, 240}, {540, 240}}, 9).frame());
   ASSERT_TRUE(traced);

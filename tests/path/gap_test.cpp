@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "canvas.hpp"
-#include "path/gap_curve.hpp"
 #include "path/path.hpp"
 
 namespace flowdlo::test {
@@ -115,38 +114,6 @@ TEST(Gap, DepthKeepsStrandsOfDifferentHeightsApart) {
     crossed = crossed || (std::abs(p.x() - 320) < 2 && std::abs(p.y() - 240) < 4);
   }
   EXPECT_FALSE(crossed) << "the straight links would meet in the middle";
-}
-
-TEST(Gap, WhatItMayCostChangesNothingOfWhatCostsLess) {
-  const Canvas canvas = Canvas().stroke(wave(), 12);
-  const Frame frame = canvas.frame();
-  const auto region = path::clean(frame);
-  const path::Cover cover(*region, frame, 12);
-  cv::RNG random(5);
-  const auto end = [&] {
-    path::StrandEnd made;
-    const auto angle = static_cast<float>(random.uniform(0.0, 2 * kPi));
-    made.point_px = {random.uniform(50.0F, 590.0F), random.uniform(50.0F, 430.0F)};
-    made.outward = made.heading = {std::cos(angle), std::sin(angle)};
-    made.curvature = random.uniform(-0.02F, 0.02F);
-    return made;
-  };
-  int refused = 0;
-  for (int i = 0; i < 2000; ++i) {
-    const path::StrandEnd from = end();
-    const path::StrandEnd to = end();
-    const float cost = path::gap_cost(from, to, cover, 12, 1e9F);
-    EXPECT_EQ(path::gap_cost(from, to, cover, 12, cost + 1e-3F), cost);
-    const float most = random.uniform(0.0F, 8.0F);
-    const float below = path::gap_cost(from, to, cover, 12, most);
-    if (cost < most) {
-      EXPECT_EQ(below, cost);
-    } else {
-      EXPECT_GE(below, most);
-      ++refused;
-    }
-  }
-  EXPECT_GT(refused, 200);
 }
 
 }  // namespace

@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "canvas.hpp"
-#include "path/eroded.hpp"
 
 namespace flowdlo::test {
 namespace {
@@ -203,7 +202,6 @@ TEST(Path, ReadingsOfOneFrameMayShareTheCleanedMask) {
   const Canvas canvas = Canvas().stroke(wave(), 12);
   const Frame frame = canvas.frame();
   const auto alone = path::trace(frame);
-  const auto alone_eroded = path::trace_eroded(frame, 12);
 
   const auto seen = path::glance(frame);
 
@@ -216,9 +214,6 @@ TEST(Path, ReadingsOfOneFrameMayShareTheCleanedMask) {
     ASSERT_TRUE(alone && traced);
     EXPECT_EQ(traced->ranked.front().points_px, alone->ranked.front().points_px);
     EXPECT_EQ(traced->rope_width_px, alone->rope_width_px);
-    const auto eroded = path::trace_eroded(frame, 12, {.cleaned = seen->cleaned});
-    ASSERT_TRUE(alone_eroded && eroded);
-    EXPECT_EQ(eroded->ranked.front().points_px, alone_eroded->ranked.front().points_px);
   }
 }
 

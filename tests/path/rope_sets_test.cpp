@@ -2,25 +2,29 @@
 
 #include <gtest/gtest.h>
 
-#include "path/walk_costs.hpp"
-
 namespace flowdlo::path {
 namespace {
 
 using Bonds = std::vector<std::vector<Bond>>;
 
-// Strands of forty widths, both ends tips.
+constexpr float kStop = 1.75F;  // what an end of a rope costs here,
+constexpr float kRope = 2 * kStop;
+
+// Strands of forty widths.
 Strands strands_of(std::size_t count) {
   Strands strands;
   strands.width_px = strands.scale_px = 10;
   strands.list.resize(count);
-  for (Strand& strand : strands.list) strand.covers_px = 400;
+  for (Strand& strand : strands.list) {
+    strand.covers_px = 400;
+    for (StrandEnd& end : strand.ends) end.end_cost = kStop;
+  }
   return strands;
 }
 
 void join(Bonds& bonds, int a, int b, float cost) {
-  bonds[static_cast<std::size_t>(a)].push_back({b, cost, true});
-  bonds[static_cast<std::size_t>(b)].push_back({a, cost, true});
+  bonds[static_cast<std::size_t>(a)].push_back({b, cost});
+  bonds[static_cast<std::size_t>(b)].push_back({a, cost});
 }
 
 // Two strands that follow each other across a gap of that cost.
@@ -31,22 +35,22 @@ std::vector<RopeSet> two_strands(float gap, int ropes) {
 }
 
 TEST(RopeSets, AGapThatCostsLessThanARopeJoinsTwoStrands) {
-  const auto sets = two_strands(kRopeCost - 0.5F, 0);
+  const auto sets = two_strands(kRope - 0.5F, 0);
   ASSERT_FALSE(sets.empty());
   ASSERT_EQ(sets[0].ways.size(), 1U);
   EXPECT_EQ(sets[0].ways[0].enters, (std::vector<int>{0, 2}));
-  EXPECT_FLOAT_EQ(sets[0].cost, 2 * kRopeCost - 0.5F);
+  EXPECT_FLOAT_EQ(sets[0].cost, 2 * kRope - 0.5F);
 }
 
 TEST(RopeSets, AGapThatCostsMoreThanARopePartsThem) {
-  const auto sets = two_strands(kRopeCost + 0.5F, 0);
+  const auto sets = two_strands(kRope + 0.5F, 0);
   ASSERT_FALSE(sets.empty());
   EXPECT_EQ(sets[0].ways.size(), 2U);
-  EXPECT_FLOAT_EQ(sets[0].cost, 2 * kRopeCost);
+  EXPECT_FLOAT_EQ(sets[0].cost, 2 * kRope);
 }
 
 TEST(RopeSets, TheNumberAskedForIsFoundWhateverGapsCost) {
-  EXPECT_EQ(two_strands(kRopeCost + 9, 1).at(0).ways.size(), 1U);
+  EXPECT_EQ(two_strands(kRope + 9, 1).at(0).ways.size(), 1U);
   EXPECT_EQ(two_strands(0.1F, 2).at(0).ways.size(), 2U);
 }
 
@@ -70,7 +74,7 @@ TEST(RopeSets, RopesThatCrossGoStraightOn) {
   ASSERT_EQ(sets[0].ways.size(), 2U);
   EXPECT_EQ(sets[0].ways[0].enters, (std::vector<int>{0, 2}));
   EXPECT_EQ(sets[0].ways[1].enters, (std::vector<int>{4, 6}));
-  EXPECT_NEAR(sets[0].cost, 2 * kRopeCost + 0.3F, 1e-4F);
+  EXPECT_NEAR(sets[0].cost, 2 * kRope + 0.3F, 1e-4F);
 }
 
 TEST(RopeSets, AWayThatComesBackToItsBeginningIsClosed) {
@@ -81,7 +85,7 @@ TEST(RopeSets, AWayThatComesBackToItsBeginningIsClosed) {
   ASSERT_FALSE(sets.empty());
   ASSERT_EQ(sets[0].ways.size(), 1U);
   EXPECT_TRUE(sets[0].ways[0].closed);
-  EXPECT_NEAR(sets[0].cost, kRingCost + 0.2F, 1e-4F);
+  EXPECT_NEAR(sets[0].cost, kRingEnergy + 0.2F, 1e-4F);
 }
 
 TEST(RopeSets, WhatIsTooShortForARingStaysOpen) {
@@ -98,11 +102,11 @@ TEST(RopeSets, WhatIsTooShortForARingStaysOpen) {
 
 TEST(RopeSets, AShortStrandIsLeftOutAndALongOneIsARope) {
   Strands strands = strands_of(2);
-  strands.list[1].covers_px = 15;  // a width and a half
+  strands.list[1].covers_px = 12;  // hardly more than a width
   const auto with_speck = search_sets(strands, Bonds(4), 0, 1);
   ASSERT_FALSE(with_speck.empty());
   EXPECT_EQ(with_speck[0].ways.size(), 1U);
-  EXPECT_FLOAT_EQ(with_speck[0].cost, kRopeCost + left_out_cost(strands.list[1], strands));
+  EXPECT_FLOAT_EQ(with_speck[0].cost, kRope + left_out_energy(strands.list[1], strands));
   strands.list[1].covers_px = 60;
   EXPECT_EQ(search_sets(strands, Bonds(4), 0, 1).at(0).ways.size(), 2U);
 }

@@ -58,6 +58,17 @@ TEST(RopePaths, GapsBelowTheUpperRopeAreBridged) {
   EXPECT_TRUE(bridged);
 }
 
+TEST(RopePaths, GapsOfAPixelOrTwoWhereTheyCrossPartNoRope) {
+  int right = 0;
+  for (std::uint64_t seed = 0; seed < 6; ++seed) {
+    const auto scene = make_ropes(RopesKind::kGaps, 3, seed);
+    const auto traced = trace_ropes(scene.frame(), 0);
+    ASSERT_TRUE(traced) << seed;
+    right += traced->ropes.size() == scene.ropes.size() ? 1 : 0;
+  }
+  EXPECT_GE(right, 5);
+}
+
 TEST(RopePaths, ARingIsClosedThoughARopeCrossesIt) {
   const auto scene = make_ropes(RopesKind::kRings, 2, 0);
   const auto traced = trace_ropes(scene.frame(), 0);

@@ -23,8 +23,8 @@ Strands strands_of(int count, float covers_px) {
 }
 
 void join(std::vector<std::vector<Bond>>& bonds, int a, int b, float cost) {
-  bonds[static_cast<std::size_t>(a)].push_back({b, cost, true});
-  bonds[static_cast<std::size_t>(b)].push_back({a, cost, true});
+  bonds[static_cast<std::size_t>(a)].push_back({b, cost});
+  bonds[static_cast<std::size_t>(b)].push_back({a, cost});
 }
 
 // Every order and direction, by brute force; all strands end in tips.
@@ -38,16 +38,16 @@ float cheapest(const Strands& strands, const std::vector<std::vector<Bond>>& bon
       const auto s = static_cast<std::size_t>(bond.to / 2);
       if (used[s]) continue;
       used[s] = true;
-      self(self, bond.to ^ 1, paid + bond.cost, left - 1.5F * strands.list[s].covers_px / 10);
+      self(self, bond.to ^ 1, paid + bond.cost, left - kLeftOutEnergy * strands.list[s].covers_px / 10);
       used[s] = false;
     }
   };
   float total = 0;
-  for (const Strand& strand : strands.list) total += 1.5F * strand.covers_px / 10;
+  for (const Strand& strand : strands.list) total += kLeftOutEnergy * strand.covers_px / 10;
   for (int end = 0; end < 2 * n; ++end) {
     used[static_cast<std::size_t>(end / 2)] = true;
     visit(visit, end ^ 1, 0,
-          total - 1.5F * strands.list[static_cast<std::size_t>(end / 2)].covers_px / 10);
+          total - kLeftOutEnergy * strands.list[static_cast<std::size_t>(end / 2)].covers_px / 10);
     used[static_cast<std::size_t>(end / 2)] = false;
   }
   return best;

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "path/bonds.hpp"
+#include "path/links.hpp"
 #include "path/strands.hpp"
 #include "path/window.hpp"
 #include "seen.hpp"
