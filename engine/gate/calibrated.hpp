@@ -24,7 +24,7 @@ inline constexpr double kCloseError_m = 0.01;
 struct GateWeights {
   std::array<double, kDrawFeatures> draw{};
   double draw_margin = 0;                      ///< score above which a draw replaces its prior
-  Network<kHypothesisFeatures, 1> hypothesis;  ///< score of what a hypothesis would return
+  Network<kHypothesisFeatures, 1, 32> hypothesis;  ///< score of what a hypothesis would return
   double hypothesis_margin = 0;  ///< score by which a runner-up has to beat the best hypothesis
   Network<kClosenessFeatures, 1> closeness;  ///< log odds that the winner is close
   Network<kNodeFeatures, NodeError::kNumbers, 16> node_error;
@@ -43,7 +43,7 @@ struct Choice {
   std::size_t chosen = 0;  ///< index among the candidates; ties go to the lower one
   double probability = 0;  ///< [0, 1] that its index error is below kCloseError_m, either way round
   std::array<float, kNodes> sigma_m{};  ///< 68 % of nodes are off by less, 95 % by less than twice
-  bool switched = false;  ///< without what is known beside the frame it would be another one
+  bool switched = false;  ///< without what is known beside the frame it would go another way
 };
 
 /// What is known beside the frame. It decides with the scores; the probability and the sigma of the

@@ -18,6 +18,9 @@ constexpr double kMostError_m = 0.1;  // worse ones are all alike: a single scen
 constexpr double kDrawRidge = 0.5;
 constexpr double kHypothesisRidge = 1e-3;
 constexpr int kHypothesisSteps = 600;
+// From one seed to the next the choice is 0.01 cm better or worse on scenes left out of the fit (of
+// 6,000 `wide` training scenes, five folds); the mean of four is 0.02 cm better than one.
+constexpr int kHypothesisNetworks = 4;
 constexpr double kDrawErrors = 0.25;
 constexpr double kHypothesisErrors = 0;  // the first hypothesis is no likelier than its score says
 constexpr double kNever = 99;            // a margin that nothing passes
@@ -76,7 +79,7 @@ HypothesisNetwork fit_hypothesis(const std::vector<GateSample>& samples, const C
   }
   if (groups.empty()) return {};
   return network_of<HypothesisNetwork>(
-      fit_policy_network(groups, kHypothesisRidge, kHypothesisSteps));
+      fit_policy_network(groups, kHypothesisRidge, kHypothesisSteps, kHypothesisNetworks));
 }
 
 /// A score that asks for a change, and what the change costs.

@@ -17,7 +17,6 @@ constexpr double kSmoothing = 0.99;  // of the mean squared slope
 constexpr double kLeastSlope = 1e-8;
 constexpr double kLeastDeviation = 1e-4;
 constexpr double kMostDeviations = 5;  // of a feature from its mean
-constexpr std::uint64_t kSeed = 1;
 
 struct Weights {
   Matrix hidden;
@@ -64,7 +63,7 @@ Standard standardise(Matrix& rows) {
 }
 
 Weights first_weights(const NetworkTask& task) {
-  std::mt19937_64 engine(kSeed);
+  std::mt19937_64 engine(task.seed);
   const auto inputs = static_cast<Index>(task.inputs);
   const auto outputs = static_cast<Index>(task.outputs);
   const auto hidden = static_cast<Index>(task.hidden);
@@ -144,6 +143,25 @@ NetworkWeights fit_network(const NetworkTask& task) {
   unstandardise(standard, weights.hidden);
   unstandardise(standard, weights.straight);
   return {values(weights.hidden), values(weights.bent), values(weights.straight)};
+}
+
+NetworkWeights fit_mean_of_networks(NetworkTask task, int count) {
+  NetworkWeights all;
+  std::vector<NetworkWeights> each;
+  for (int i = 0; i < count; ++i, ++task.seed) each.push_back(fit_network(task));
+  all.straight.assign(each.front().straight.size(), 0);
+  for (const NetworkWeights& one : each) {
+    all.hidden.insert(all.hidden.end(), one.hidden.begin(), one.hidden.end());
+    for (std::size_t k = 0; k < all.straight.size(); ++k) all.straight[k] += one.straight[k] / count;
+  }
+  for (std::size_t output = 0; output < task.outputs; ++output) {
+    for (const NetworkWeights& one : each) {
+      for (std::size_t h = 0; h < task.hidden; ++h) {
+        all.bent.push_back(one.bent[output * task.hidden + h] / count);
+      }
+    }
+  }
+  return all;
 }
 
 }  // namespace flowdlo::lab

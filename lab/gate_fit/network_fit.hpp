@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <span>
 #include <vector>
@@ -22,6 +23,7 @@ struct NetworkTask {
   std::size_t inputs = 0;  ///< features of a row; the first of each is one
   std::size_t outputs = 0;
   std::size_t hidden = 8;
+  std::uint64_t seed = 1;       ///< of the weights that the descent sets out from
   std::vector<double> rows{};  ///< [rows, inputs]
   std::vector<double> start;   ///< [outputs] what is said of every row at first
   double ridge = 0;            ///< penalty of squared weights of standardised features, a row
@@ -38,6 +40,10 @@ struct NetworkTask {
 
 /// The same for the same task. Expects at least one row.
 [[nodiscard]] NetworkWeights fit_network(const NetworkTask& task);
+
+/// One network that says the mean of what `count` say, each fitted from a seed of its own: their
+/// hidden weights are one below another.
+[[nodiscard]] NetworkWeights fit_mean_of_networks(NetworkTask task, int count);
 
 template <class Network>
 [[nodiscard]] Network network_of(const NetworkWeights& weights) {

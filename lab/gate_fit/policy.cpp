@@ -61,7 +61,8 @@ std::vector<double> fit_policy(const std::vector<Group>& groups, std::vector<dou
   return start;
 }
 
-NetworkWeights fit_policy_network(const std::vector<Group>& groups, double ridge, int steps) {
+NetworkWeights fit_policy_network(const std::vector<Group>& groups, double ridge, int steps,
+                                  int networks) {
   NetworkTask task{.inputs = groups.front().rows.front().size(),
                    .outputs = 1,
                    .start = {0},
@@ -79,7 +80,7 @@ NetworkWeights fit_policy_network(const std::vector<Group>& groups, double ridge
       first += group.rows.size();
     }
   };
-  return fit_network(task);
+  return fit_mean_of_networks(task, networks);
 }
 
 }  // namespace flowdlo::lab

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <span>
+
 namespace flowdlo::lab {
 namespace {
 
@@ -33,7 +36,7 @@ using Net = gate::Network<3, 1>;
 
 TEST(FitPolicyNetwork, LearnsWhatNoStraightScoreCan) {  // the middle one of three is the cheapest
   const std::vector<Group> groups(40, {{{1, -1, 0}, {1, 0, 0}, {1, 1, 0}}, {3, 0, 3}});
-  const auto net = network_of<Net>(fit_policy_network(groups, 1e-5, 800));
+  const auto net = network_of<Net>(fit_policy_network(groups, 1e-5, 800, 1));
   EXPECT_GT(net({1, 0, 0})[0], net({1, -1, 0})[0]);
   EXPECT_GT(net({1, 0, 0})[0], net({1, 1, 0})[0]);
 }
@@ -44,9 +47,29 @@ TEST(FitPolicyNetwork, OnlyDifferencesWithinAGroupCount) {
     const double level = i % 2;  // dear groups are not the fault of what marks them
     groups.push_back({{{1, 0, level}, {1, 1, level}}, {9 * level, 9 * level + 1}});
   }
-  const auto net = network_of<Net>(fit_policy_network(groups, 1e-4, 800));
+  const auto net = network_of<Net>(fit_policy_network(groups, 1e-4, 800, 1));
   EXPECT_GT(net({1, 0, 0})[0], net({1, 1, 0})[0]);
   EXPECT_GT(net({1, 0, 1})[0], net({1, 1, 1})[0]);
+}
+
+TEST(FitPolicyNetwork, OfSeveralSaysTheMeanOfWhatEachSays) {
+  NetworkTask task{.inputs = 3, .outputs = 1, .start = {0}, .ridge = 1e-4, .steps = 40};
+  for (int i = 0; i < 20; ++i) {
+    const double x = i / 10.0 - 1;
+    task.rows.insert(task.rows.end(), {1, x, x * x});
+  }
+  task.slope = [](std::size_t row, std::span<const double> said, std::span<double> slope) {
+    slope[0] = said[0] - (row % 2 == 0 ? 1 : 0);
+  };
+  const auto both = network_of<gate::Network<3, 1, 16>>(fit_mean_of_networks(task, 2));
+  const auto first = network_of<Net>(fit_network(task));
+  ++task.seed;
+  const auto second = network_of<Net>(fit_network(task));
+  for (const double x : {-0.7, 0.2, 0.9}) {
+    const std::array<double, 3> row{1, x, x * x};
+    EXPECT_NE(first(row)[0], second(row)[0]);
+    EXPECT_NEAR(both(row)[0], 0.5 * (first(row)[0] + second(row)[0]), 1e-12);
+  }
 }
 
 }  // namespace

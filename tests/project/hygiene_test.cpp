@@ -88,9 +88,10 @@ TEST(Project, TextFilesEndInOneNewline) {
               IsEmpty());
 }
 
-TEST(Project, EngineFilesStayShort) {
+TEST(Project, EngineFilesStayShort) {  // but for tables of fitted numbers
   EXPECT_THAT(text_files_with([](const auto& path, const auto& content) {
-                return path.starts_with("engine/") && lines_of(content).size() > kMaxEngineLines;
+                return path.starts_with("engine/") && !path.starts_with("engine/gate/fitted_to_") &&
+                       lines_of(content).size() > kMaxEngineLines;
               }),
               IsEmpty());
 }
