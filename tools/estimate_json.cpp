@@ -55,6 +55,8 @@ std::string sentence(const Estimate& estimate) {
   std::string origin = "no draw of the model passed the gate, so this is the prior";
   if (estimate.source == Source::kPrediction) {
     origin = fmt::format("draw {} of the model passed the gate", estimate.draw);
+  } else if (estimate.draws.empty()) {
+    origin = fmt::format("the model was not asked, and {} was taken", words(estimate.origin));
   } else if (estimate.calibrated) {
     origin =
         fmt::format("the gate preferred {} to every draw of the model", words(estimate.origin));

@@ -45,6 +45,7 @@ std::string source_of(const Estimate& estimate) {
   if (estimate.source == Source::kPrediction) {
     return fmt::format("prediction (draw {} of {})", estimate.draw + 1, estimate.draws.size());
   }
+  if (estimate.draws.empty()) return fmt::format("{} (model not asked)", words_of(estimate.origin));
   const bool any = std::any_of(estimate.draws.begin(), estimate.draws.end(),
                                [](const DrawReport& draw) { return draw.accepted; });
   return fmt::format("{} ({})", words_of(estimate.origin),

@@ -48,6 +48,19 @@ TEST(EstimateJson, HasTheFieldsOfTheContract) {
   EXPECT_DOUBLE_EQ(json["device_timings_ms"]["step"], 9.0);
 }
 
+TEST(EstimateJson, SaysOfAModelThatWasNotAskedThatItWasNot) {
+  auto estimate = test::sample_estimate();
+  estimate.source = Source::kPrior;
+  estimate.origin = Origin::kFirstPrior;
+  estimate.calibrated = true;
+  auto json = Json::parse(estimate_json(estimate, kProvenance));
+  EXPECT_THAT(json["message"].get<std::string>(), HasSubstr("preferred the first prior to every"));
+  estimate.draws.clear();
+  json = Json::parse(estimate_json(estimate, kProvenance));
+  EXPECT_THAT(json["message"].get<std::string>(),
+              HasSubstr("the model was not asked, and the first prior was taken"));
+}
+
 TEST(EstimateJson, HoldsTheNodesAndWhatTheHintsDid) {
   auto estimate = test::sample_estimate();
   auto json = Json::parse(estimate_json(estimate, kProvenance));
