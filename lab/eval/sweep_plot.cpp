@@ -1,4 +1,4 @@
-#include "eval/sweep_sheet.hpp"
+#include "eval/drawn_figures.hpp"
 
 #include <fmt/format.h>
 
@@ -9,8 +9,6 @@
 #include <opencv2/imgproc.hpp>
 
 #include "eval/contenders.hpp"
-#include "eval/example_sheet.hpp"
-#include "eval/space_view.hpp"
 #include "pictures/canvas.hpp"
 
 namespace flowdlo::eval {
@@ -29,8 +27,6 @@ constexpr int kLeft = 70;
 constexpr int kTop = 50;
 constexpr int kPlotWidth = 520;
 constexpr int kPlotHeight = 320;
-constexpr int kWidth = 300;
-constexpr int kHeight = 220;
 
 std::vector<double> errors_cm(const DataSet& data_set, const char* model) {
   std::vector<double> errors;
@@ -58,23 +54,9 @@ void draw_line(const std::vector<double>& errors, const cv::Scalar& color, bool 
   }
 }
 
-// The scenes of Figure 4.5, or the first examples of another data set.
-std::vector<const Trial*> scenes_of(const DataSet& data_set) {
-  auto examples = fixed_examples(data_set);
-  if (data_set.thesis_groups) {
-    std::erase_if(examples, [](const Trial* trial) {
-      return trial->scene.scenario != "intersection-complicated" &&
-             trial->scene.scenario != "S-complicated";
-    });
-    if (examples.size() > 1) examples.erase(examples.begin() + 1, examples.end() - 1);
-  }
-  if (examples.size() > 2) examples.resize(2);
-  return examples;
-}
-
 }  // namespace
 
-Result<std::vector<std::uint8_t>> sweep_plot_png(const DataSet& data_set) {
+Png sweep_plot_png(const DataSet& data_set) {
   double most_cm = 0;
   for (const Line& line : kLines) {
     for (const double cm : errors_cm(data_set, line.model)) most_cm = std::max(most_cm, cm);
@@ -107,46 +89,6 @@ Result<std::vector<std::uint8_t>> sweep_plot_png(const DataSet& data_set) {
   canvas.legend(entries, {kLeft + 80, 20});
   if (data_set.thesis_groups)
     canvas.write("thin, hollow: the thesis' own", {kLeft + 300, 20}, 0.38);
-  return canvas.png();
-}
-
-Result<std::vector<std::uint8_t>> sweep_sheet_png(const DataSet& data_set) {
-  const auto scenes = scenes_of(data_set);
-  std::vector<std::pair<const Trial*, const Line*>> rows;
-  for (const Trial* trial : scenes) {
-    for (const Line& line : kLines) {
-      if (trial->curves.count(swept(line.model, kSweep[0])) > 0) rows.emplace_back(trial, &line);
-    }
-  }
-  if (rows.empty()) return std::vector<std::uint8_t>();
-  pictures::Canvas canvas(20 + (kWidth + 10) * static_cast<int>(std::size(kSweep)),
-                          kTop + (kHeight + 26) * static_cast<int>(rows.size()));
-  canvas.legend({{"truth", pictures::kTruthColor},
-                 {"velocity", pictures::draw_color(0)},
-                 {"direct", pictures::draw_color(1)}},
-                {10, 24});
-  int y = kTop - 10;
-  for (const auto& [trial, line] : rows) {
-    canvas.write(fmt::format("{}, {}, draw 1", trial->name, line->title), {10, y + 14});
-    int x = 10;
-    for (const int steps : kSweep) {
-      const cv::Rect place(x, y + 20, kWidth, kHeight);
-      cv::Mat view = canvas.panel(place);
-      const SpaceView space(trial->truth, place.size());
-      space.draw(trial->truth, pictures::kTruthColor, 3, view);
-      const auto found = trial->curves.find(swept(line->model, steps));
-      if (found != trial->curves.end() && !found->second.empty()) {
-        space.draw(found->second.front(), line->color, 2, view);
-      }
-      const Outcome* outcome = trial->of(swept(line->model, steps));
-      canvas.write_over(fmt::format("K = {}: {:.2f} cm over the draws", steps,
-                                    outcome == nullptr ? 0 : 100 * outcome->index_m),
-                        {x + 4, place.y + place.height - 6}, 0.36);
-      cv::rectangle(canvas.picture(), place, {225, 225, 225});
-      x += kWidth + 10;
-    }
-    y += kHeight + 26;
-  }
   return canvas.png();
 }
 
