@@ -11,7 +11,7 @@ namespace {
 
 // In the order of `confidence_features`. Fitted on synthetic scenes by
 // `flowdlo-lab scenes fit --scenes 150 --wide 1000`; the first, 2.010 there, is lowered so that
-// nine in ten wrong winners of `flowdlo-lab scenes report` stay below a half.
+// nine in ten wrong winners of drawn scenes stay below a half.
 constexpr std::array<double, kConfidenceFeatures> kConfidenceWeights{
     1.660, 1.491,  -3.296, 0.000,  -2.255, -0.687, -2.525, -0.156,
     0.000, -4.301, -1.436, -1.144, -4.363, -2.346, -2.539, 0.000};

@@ -8,9 +8,7 @@
 #include <opencv2/imgproc.hpp>
 #include <utility>
 
-#include "baselines/dloftbs_path.hpp"
-#include "baselines/geodesic_path.hpp"
-#include "baselines/mbest_path.hpp"
+#include "baselines/traced_path.hpp"
 #include "baselines/trackdlo_init.hpp"
 #include "baselines/zhang_suen.hpp"
 #include "evidence/visible_points.hpp"

@@ -1,4 +1,4 @@
-#include "baselines/geodesic_path.hpp"
+#include "baselines/traced_path.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -21,7 +21,6 @@
 #include "eval/evaluator.hpp"
 #include "eval/job_loop.hpp"
 #include "eval/merged_rows.hpp"
-#include "eval/plots.hpp"
 #include "eval/row_file.hpp"
 #include "eval/sweep.hpp"
 #include "eval/tables.hpp"
@@ -156,8 +155,8 @@ Result<void> run_rows(const EvalOptions& options, const std::vector<support::Fra
 Result<void> forget_report(const fs::path& out) {
   const auto folder = files::Folder::open(out);
   if (!folder) return folder.error();
-  for (const char* name : {"report.html", "results.md", "tables.md", "rows.csv", "timings.csv",
-                           "methods.csv", "error_bars.png", "error_curve.png"}) {
+  for (const char* name :
+       {"report.html", "results.md", "tables.md", "rows.csv", "timings.csv", "methods.csv"}) {
     if (auto done = folder->remove(name); !done) return done;
   }
   return {};
@@ -165,16 +164,10 @@ Result<void> forget_report(const fs::path& out) {
 
 Result<void> save(const fs::path& out, const std::string& tables,
                   const std::vector<eval::Trial>& trials) {
-  const auto bars = eval::error_bars_png(trials);
-  if (!bars) return bars.error();
-  const auto curve = eval::error_curve_png(trials);
-  if (!curve) return curve.error();
   files::StagedFiles staged(support::chosen_durability());
   if (auto done = staged.add(out / "tables.md", tables); !done) return done;
   if (auto done = staged.add(out / "rows.csv", eval::rows_csv(trials)); !done) return done;
   if (auto done = staged.add(out / "timings.csv", eval::timings_csv(trials)); !done) return done;
-  if (auto done = staged.add(out / "error_bars.png", *bars); !done) return done;
-  if (auto done = staged.add(out / "error_curve.png", *curve); !done) return done;
   return staged.commit();
 }
 

@@ -7,7 +7,6 @@
 #include <atomic>
 #include <cstdio>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
@@ -17,9 +16,9 @@
 #include "command_line.hpp"
 #include "pictures/contact_sheet.hpp"
 #include "progress_bar.hpp"
+#include "survey/in_parallel.hpp"
 #include "synth/synthetic_frame.hpp"
 #include "terminal.hpp"
-#include "threads/team.hpp"
 
 namespace flowdlo::lab {
 namespace {
@@ -92,69 +91,51 @@ Result<std::vector<Job>> jobs_of(const SynthOptions& options) {
   return jobs;
 }
 
-/// Runs the jobs on several threads; the first fault ends all of them.
-class Crew {
- public:
-  Crew(const SynthOptions& options, const std::vector<Job>& jobs, const SynthFolder* folder)
-      : options_(options),
-        jobs_(jobs),
-        folder_(folder),
-        progress_("synth", static_cast<int>(jobs.size()), options.quiet),
-        sheet_(options.sheet.empty() ? 0 : std::min<std::size_t>(jobs.size(), kMostOnASheet)) {}
-
-  Result<void> work() {
-    threads::work_together(threads::count(options_.threads), [this](int) { work_off(); });
-    if (fault_) return *fault_;
-    return {};
-  }
-
-  [[nodiscard]] const std::vector<synth::SyntheticFrame>& sheet() const { return sheet_; }
-  [[nodiscard]] int kept() const { return kept_; }
-
- private:
-  void work_off() {
-    for (std::size_t k = next_++; k < jobs_.size(); k = next_++) {
-      const auto done = make(k);
-      const std::lock_guard lock(mutex_);
-      if (fault_) return;
-      if (!done) {
-        fault_ = done.error();
-        return;
-      }
-      progress_.advance();
-    }
-  }
-
-  Result<void> make(std::size_t k) {
-    const bool shown = k < sheet_.size();
-    const auto known = synth::identity(options_.split, options_.part, options_.seed, jobs_[k].index,
-                                       jobs_[k].frame);
-    if (!known) return known.error();
-    const auto there = folder_ != nullptr ? folder_->holds(*known) : Result<bool>(true);
-    if (!there) return there.error();
-    kept_ += folder_ != nullptr && *there ? 1 : 0;
-    if (*there && !shown) return {};
-    auto frame =
-        synth::make_frame(options_.split, options_.part, options_.seed, jobs_[k].index,
-                          {.color = true, .frame = jobs_[k].frame, .matched = options_.matched});
-    if (!frame) return frame.error();
-    if (!*there) {
-      if (auto saved = folder_->save(*frame); !saved) return saved;
-    }
-    if (shown) sheet_[k] = std::move(*frame);
-    return {};
-  }
-
-  const SynthOptions& options_;
-  const std::vector<Job>& jobs_;
-  const SynthFolder* folder_;
-  support::ProgressBar progress_;
-  std::vector<synth::SyntheticFrame> sheet_;
-  std::atomic<std::size_t> next_ = 0;
-  std::atomic<int> kept_ = 0;
-  std::mutex mutex_;
-  std::optional<Error> fault_;
+/// What comes of a run, beside the frames in its folder.
+struct Made {
+  std::vector<synth::SyntheticFrame> sheet;
+  std::atomic<int> kept = 0;  ///< frames that were there already
 };
+
+Result<void> make(const SynthOptions& options, const Job& job, const SynthFolder* folder,
+                  synth::SyntheticFrame* shown, std::atomic<int>& kept) {
+  const auto known =
+      synth::identity(options.split, options.part, options.seed, job.index, job.frame);
+  if (!known) return known.error();
+  const auto there = folder != nullptr ? folder->holds(*known) : Result<bool>(true);
+  if (!there) return there.error();
+  kept += folder != nullptr && *there ? 1 : 0;
+  if (*there && shown == nullptr) return {};
+  auto frame = synth::make_frame(options.split, options.part, options.seed, job.index,
+                                 {.frame = job.frame, .matched = options.matched});
+  if (!frame) return frame.error();
+  if (!*there) {
+    if (auto saved = folder->save(*frame); !saved) return saved;
+  }
+  if (shown != nullptr) *shown = *std::move(frame);
+  return {};
+}
+
+/// Runs the jobs on several threads; the first fault ends all of them.
+Result<void> make_all(const SynthOptions& options, const std::vector<Job>& jobs,
+                      const SynthFolder* folder, Made& made) {
+  support::ProgressBar progress("synth", static_cast<int>(jobs.size()), options.quiet);
+  made.sheet.resize(options.sheet.empty() ? 0 : std::min<std::size_t>(jobs.size(), kMostOnASheet));
+  std::atomic<bool> failed = false;
+  const auto work = [&](survey::Nothing, std::uint64_t k) -> Result<survey::Nothing> {
+    if (failed) return survey::Nothing();
+    const auto done =
+        make(options, jobs[k], folder, k < made.sheet.size() ? &made.sheet[k] : nullptr, made.kept);
+    if (done) return survey::Nothing();
+    failed = true;
+    return done.error();
+  };
+  for (const auto& done : survey::in_parallel<survey::Nothing>(
+           {0, jobs.size()}, options.threads, survey::no_tool, work, [&] { progress.advance(); })) {
+    if (!done) return done.error();
+  }
+  return {};
+}
 
 Result<std::string> run_jobs(const SynthOptions& options) {
   if (auto good = check(options); !good) return good.error();
@@ -166,19 +147,21 @@ Result<std::string> run_jobs(const SynthOptions& options) {
     if (!opened) return opened.error();
     folder.emplace(std::move(*opened));
   }
-  Crew crew(options, *jobs, folder ? &*folder : nullptr);
-  if (auto done = crew.work(); !done) return done.error();
+  Made made;
+  if (auto done = make_all(options, *jobs, folder ? &*folder : nullptr, made); !done) {
+    return done.error();
+  }
   std::string said;
   if (folder) {
     said = fmt::format("{}: {} frames of the {} split's {} part", options.out.string(),
                        jobs->size(), synth::name_of(options.split), synth::name_of(options.part));
-    if (crew.kept() > 0) said += fmt::format(", {} of them were there already", crew.kept());
+    if (made.kept > 0) said += fmt::format(", {} of them were there already", made.kept.load());
     said += '\n';
   }
   if (!options.sheet.empty()) {
-    if (auto saved = pictures::save_contact_sheet(options.sheet, crew.sheet()); !saved)
+    if (auto saved = pictures::save_contact_sheet(options.sheet, made.sheet); !saved)
       return saved.error();
-    said += fmt::format("{}: {} frames\n", options.sheet.string(), crew.sheet().size());
+    said += fmt::format("{}: {} frames\n", options.sheet.string(), made.sheet.size());
   }
   return said;
 }
@@ -203,10 +186,12 @@ void add_synth_command(CLI::App& app, support::ExitCode& exit_code) {
   command
       ->add_option("--split", options->split,
                    "thesis (nine groups on a table, clean depth), wide (sensors, occluders, "
-                   "hanging ropes) or several (the same with two to nine ropes) [wide]")
+                   "hanging ropes), several (the same with two to nine ropes) or drawn (plain "
+                   "tubes of eleven kinds) [wide]")
       ->transform(support::choice<synth::Split>({{"thesis", synth::Split::kThesis},
                                                  {"wide", synth::Split::kWide},
-                                                 {"several", synth::Split::kSeveral}}))
+                                                 {"several", synth::Split::kSeveral},
+                                                 {"drawn", synth::Split::kDrawn}}))
       ->type_name("NAME");
   command
       ->add_option("--part", options->part,

@@ -8,7 +8,7 @@
 
 #include "eval/contenders.hpp"
 #include "eval/interval.hpp"
-#include "eval/markdown_table.hpp"
+#include "survey/table.hpp"
 
 namespace flowdlo::eval {
 namespace {
@@ -52,7 +52,7 @@ std::string error_table(const DataSet& data_set, const std::vector<Column>& colu
   if (data_set.thesis_groups) {
     for (const std::string& title : thesis_titles) header.push_back(italic(title));
   }
-  MarkdownTable table(header);
+  survey::Table table(header);
   const auto groups = groups_of(data_set);
   for (const SceneGroup& group : groups) {
     std::vector<std::string> cells{group.name, std::to_string(group.trials.size())};
@@ -113,7 +113,7 @@ std::string coverage_table(const DataSet& data_set, const std::string& name,
       header.push_back(italic(text));
     }
   }
-  MarkdownTable table(header);
+  survey::Table table(header);
   for (const SceneGroup& group : groups) {
     const Tally tally = tally_of(group.trials, name);
     const auto paired = having(group.trials, methods);
@@ -153,7 +153,7 @@ std::string sweep_table(const DataSet& data_set) {
   };
   const std::array<Line, 2> lines{
       {{"full", "velocity", &kThesisVelocity}, {"direct", "direct state", &kThesisDirect}}};
-  MarkdownTable table(
+  survey::Table table(
       {"parameterization", "1 step", "4 steps", "10 steps", "20 steps", "10-step Frechet"});
   bool any = false;
   for (const Line& line : lines) {
@@ -210,7 +210,7 @@ std::string gate_table(const DataSet& data_set, const std::string& model) {
       header.push_back(italic(text));
     }
   }
-  MarkdownTable table(header);
+  survey::Table table(header);
   for (const SceneGroup& group : groups) {
     int draws = 0;
     int accepted = 0;
@@ -243,7 +243,7 @@ std::string verdict_table(const DataSet& data_set) {
   if (!data_set.thesis_groups) return {};
   const auto groups = groups_of(data_set);
   if (groups.empty()) return {};
-  MarkdownTable table({"scenario", "our prior", "*prior*", "our full model", "our estimate",
+  survey::Table table({"scenario", "our prior", "*prior*", "our full model", "our estimate",
                        "*full model*", "estimate / *full model*: index, Frechet",
                        "estimate smaller in"});
   for (const SceneGroup& group : groups) {

@@ -11,7 +11,7 @@
 #include <set>
 #include <utility>
 
-#include "eval/markdown_table.hpp"
+#include "survey/table.hpp"
 
 namespace flowdlo::eval {
 namespace {
@@ -82,7 +82,7 @@ std::string percent_or_dash(const std::optional<double>& value) {
 }  // namespace
 
 std::string availability_table(const DataSet& data_set) {
-  MarkdownTable table({"method", "frames", "valid", "invalid", "no output", "mask consistency",
+  survey::Table table({"method", "frames", "valid", "invalid", "no output", "mask consistency",
                        "index / Frechet, cm, where valid", "strand errors", "reasons"});
   for (const std::string& method : methods_of(data_set.trials)) {
     const Tally tally = tally_of(data_set.trials, method);
@@ -108,7 +108,7 @@ std::string frame_table(const DataSet& data_set) {
   std::vector<std::string> header{"frame", "accepted draws", "confidence"};
   const auto methods = methods_of(data_set.trials);
   header.insert(header.end(), methods.begin(), methods.end());
-  MarkdownTable table(header);
+  survey::Table table(header);
   for (const Trial* trial : data_set.trials) {
     std::vector<std::string> cells{trial->name,
                                    fmt::format("{} of {}", trial->accepted_draws, trial->draws),
@@ -124,7 +124,7 @@ std::string recording_table(const DataSet& data_set) {
   std::copy_if(data_set.trials.begin(), data_set.trials.end(), std::back_inserter(real),
                [](const Trial* trial) { return !trial->with_truth; });
   if (real.empty()) return {};
-  MarkdownTable table({"recording", "frames", "TrackDLO-init valid / no output / invalid",
+  survey::Table table({"recording", "frames", "TrackDLO-init valid / no output / invalid",
                        "eligible", "draws accepted", "TrackDLO-init", "prediction", "prior",
                        "estimate"});
   const Tally trackdlo = tally_of(real, "trackdlo");
@@ -186,7 +186,7 @@ double expected_calibration_error(const std::vector<ReliabilityBin>& bins) {
 std::string calibration_table(const DataSet& data_set) {
   const auto bins = reliability(data_set.trials);
   if (bins.empty()) return {};
-  MarkdownTable table({"confidence", "scenes", "index error under 1 cm"});
+  survey::Table table({"confidence", "scenes", "index error under 1 cm"});
   for (const ReliabilityBin& bin : bins) {
     table.add({fmt::format("{:.2f}", bin.said), std::to_string(bin.scenes), percent(bin.was)});
   }

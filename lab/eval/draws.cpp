@@ -67,12 +67,12 @@ void add_draws(const Estimate& estimate, const Tensors& tensors, const std::stri
   prior = {};
   prior.output = true;
   prior.mask_agreement = static_cast<double>(estimate.prior_mask_agreement);
+  if (method.find('@') != std::string::npos) return;  // nobody draws them
   auto& curves = trial.curves[key(method)];
   curves.clear();
   for (const Centerline& nodes : predictions_of(tensors)) {
     if (finite(nodes)) curves.push_back(kept(nodes));
   }
-  if (method.find('@') != std::string::npos && !curves.empty()) curves.resize(1);
   if (method.empty()) trial.curves["prior"] = {kept(centerline_of(tensors.prior))};
 }
 

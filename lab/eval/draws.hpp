@@ -19,7 +19,7 @@ inline constexpr double kCurveUnit_m = 1e-5;
 
 /// Accounts and curves of `method`'s draws ("model" where it is empty), and the account of the
 /// prior they were judged against (METHOD.prior, or "prior"). A method with steps in its name
-/// ("full@4") keeps the curve of its first draw only.
+/// ("full@4") keeps no curves.
 void add_draws(const Estimate& estimate, const Tensors& tensors, const std::string& method,
                Trial& trial);
 

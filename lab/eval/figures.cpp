@@ -1,28 +1,20 @@
 #include "eval/figures.hpp"
 
-#include "eval/example_sheet.hpp"
-#include "eval/paired_bars.hpp"
-#include "eval/real_overlay.hpp"
-#include "eval/reliability_plot.hpp"
-#include "eval/sweep_sheet.hpp"
+#include "eval/drawn_figures.hpp"
 
 namespace flowdlo::eval {
 namespace {
 
-using Draw = Result<std::vector<std::uint8_t>> (*)(const DataSet& data_set);
-
 struct Kind {
   const char* name;
   const char* title;
-  Draw draw;
+  Png (*draw)(const DataSet& data_set);
 };
 
 constexpr Kind kKinds[] = {
     {"paired_bars", "Figure 4.2: paired errors by scenario", paired_bars_png},
-    {"examples", "Figure 4.3: fixed examples with every draw", example_sheet_png},
     {"overlays", "Figure 4.4: overlays on real frames", real_overlay_png},
     {"steps", "Table 4.5 as a plot: index error over the steps", sweep_plot_png},
-    {"time_sweep", "Figure 4.5: what more steps change", sweep_sheet_png},
     {"reliability", "Reliability of the confidence", reliability_png}};
 
 }  // namespace

@@ -17,8 +17,9 @@ struct Figure {
   std::vector<std::uint8_t> png;
 };
 
-/// Figures 4.2 to 4.5 and the reliability diagram of every data set, as far as their methods were
-/// run. Overlays read the frames again: a frame that has gone is left out. Fails with kInternal.
+/// Figures 4.2 and 4.4, Table 4.5 as a plot and the reliability diagram of every data set, as far
+/// as their methods were run. Overlays read the frames again: a frame that has gone is left out.
+/// Fails with kInternal.
 [[nodiscard]] Result<std::vector<Figure>> figures(std::span<const Trial> trials);
 
 }  // namespace flowdlo::eval

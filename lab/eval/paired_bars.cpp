@@ -1,4 +1,4 @@
-#include "eval/paired_bars.hpp"
+#include "eval/drawn_figures.hpp"
 
 #include <fmt/format.h>
 
@@ -78,7 +78,7 @@ void draw_group(const SceneGroup& group, const std::vector<Bar>& bars, int y,
 
 }  // namespace
 
-Result<std::vector<std::uint8_t>> paired_bars_png(const DataSet& data_set) {
+Png paired_bars_png(const DataSet& data_set) {
   const auto groups = groups_of(data_set);
   const bool run = !groups.empty() && groups.back().trials.front()->account(kBaseline) != nullptr;
   if (!run) return std::vector<std::uint8_t>();

@@ -1,4 +1,4 @@
-#include "eval/real_overlay.hpp"
+#include "eval/drawn_figures.hpp"
 
 #include <fmt/format.h>
 
@@ -99,7 +99,7 @@ void draw_frame(const Trial& trial, const FrameFolder& folder, int y, pictures::
 
 }  // namespace
 
-Result<std::vector<std::uint8_t>> real_overlay_png(const DataSet& data_set) {
+Png real_overlay_png(const DataSet& data_set) {
   std::vector<std::pair<const Trial*, FrameFolder>> frames;
   for (const Trial* trial : data_set.trials) {
     if (trial->with_truth || frames.size() == kMostFrames) continue;

@@ -1,4 +1,4 @@
-#include "eval/reliability_plot.hpp"
+#include "eval/drawn_figures.hpp"
 
 #include <fmt/format.h>
 
@@ -19,7 +19,7 @@ constexpr int kCounts = 70;  // height of the bars below
 
 }  // namespace
 
-Result<std::vector<std::uint8_t>> reliability_png(const DataSet& data_set) {
+Png reliability_png(const DataSet& data_set) {
   const auto bins = reliability(data_set.trials);
   if (bins.empty()) return std::vector<std::uint8_t>();
   pictures::Canvas canvas(kLeft + kSide + 50, kTop + kSide + kCounts + 70);

@@ -4,23 +4,27 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <functional>
 #include <iterator>
 #include <map>
 #include <string_view>
 #include <utility>
 #include <vector>
 
+#include "eval/coverage_tables.hpp"
 #include "eval/interval.hpp"
+#include "eval/method_rows.hpp"
+#include "survey/table.hpp"
+#include "survey/values.hpp"
 
 namespace flowdlo::eval {
 namespace {
 
+using survey::Values;
+
 constexpr double kCm = 100;
-constexpr double kFar_m = 0.02;    // an error beyond this is a failure
-constexpr double kClose_m = 0.01;  // one below this is a success, which `confidence` predicts
-constexpr std::size_t kBins = 10;
+constexpr double kFar_cm = 2;     // an error beyond this is a failure
+constexpr double kClose_cm = 1;   // one below this is a success, which `confidence` predicts
+constexpr double kTrusted = 0.5;  // a confidence that a program would go by
 
 struct Method {
   const char* key;
@@ -34,17 +38,15 @@ constexpr std::array<Method, 5> kMethods{{{"prior", "thesis prior"},
 constexpr const char* kAgainst = "refined";
 
 using Subset = std::vector<const Trial*>;
+using Groups = std::vector<std::pair<std::string, Subset>>;
 
 // The trials whose every method can be compared.
 Subset measured(std::span<const Trial> trials) {
-  Subset subset;
-  for (const Trial& trial : trials) {
-    const bool whole = std::all_of(kMethods.begin(), kMethods.end(), [&](const Method& method) {
-      return trial.of(method.key) != nullptr;
-    });
-    if (whole) subset.push_back(&trial);
-  }
-  return subset;
+  Subset all;
+  for (const Trial& trial : trials) all.push_back(&trial);
+  std::vector<std::string> methods;
+  for (const Method& method : kMethods) methods.emplace_back(method.key);
+  return having(all, methods);
 }
 
 template <class Keep>
@@ -56,8 +58,8 @@ Subset kept(const Subset& trials, const Keep& keep) {
 }
 
 // The groups of the tables: all, by difficulty, by scenario.
-std::vector<std::pair<std::string, Subset>> groups_of(const Subset& trials) {
-  std::vector<std::pair<std::string, Subset>> groups{{"all", trials}};
+Groups groups_of(const Subset& trials) {
+  Groups groups{{"all", trials}};
   const auto add = [&](const std::string& name, Subset subset) {
     if (!subset.empty()) groups.emplace_back(name, std::move(subset));
   };
@@ -72,120 +74,95 @@ std::vector<std::pair<std::string, Subset>> groups_of(const Subset& trials) {
   return groups;
 }
 
-std::vector<double> values(const Subset& trials, const char* method, double Outcome::*field) {
-  std::vector<double> result;
-  for (const Trial* trial : trials) result.push_back(trial->of(method)->*field);
+Values values(const Subset& trials, const char* method, double Outcome::*field) {
+  Values result;
+  for (const Trial* trial : trials) result.add(trial->of(method)->*field);
   return result;
 }
 
-double mean(const std::vector<double>& numbers) {
-  double sum = 0;
-  for (const double number : numbers) sum += number;
-  return numbers.empty() ? 0 : sum / static_cast<double>(numbers.size());
+Values in_cm(const Values& metres) {
+  Values result;
+  for (const double m : metres.all()) result.add(kCm * m);
+  return result;
 }
 
-double percentile(std::vector<double> numbers, double share) {
-  if (numbers.empty()) return 0;
-  std::sort(numbers.begin(), numbers.end());
-  const auto at = static_cast<std::size_t>(share * static_cast<double>(numbers.size()));
-  return numbers[std::min(at, numbers.size() - 1)];
-}
-
-double share_beyond(const std::vector<double>& numbers, double limit) {
-  const auto beyond =
-      std::count_if(numbers.begin(), numbers.end(), [&](double number) { return number > limit; });
-  return numbers.empty() ? 0 : static_cast<double>(beyond) / static_cast<double>(numbers.size());
-}
-
-void add_errors(const std::vector<std::pair<std::string, Subset>>& groups, std::string& out) {
-  out +=
-      "## Errors\n\nMean index error (Eq. 4.1) / mean discrete Frechet distance (Eq. 4.2), cm, "
-      "both in the published direction.\n\n| group | n |";
-  std::string rule = "\n|---|---|";
-  for (const Method& method : kMethods) {
-    out += fmt::format(" {} |", method.title);
-    rule += "---|";
-  }
-  out += rule + "\n";
+std::string error_table(const Groups& groups) {
+  std::vector<std::string> header{"group", "n"};
+  for (const Method& method : kMethods) header.emplace_back(method.title);
+  survey::Table table(header);
   for (const auto& [name, trials] : groups) {
-    out += fmt::format("| {} | {} |", name, trials.size());
-    for (const Method& method : kMethods) {
-      out += fmt::format(" {:.3f} / {:.3f} |",
-                         kCm * mean(values(trials, method.key, &Outcome::index_m)),
-                         kCm * mean(values(trials, method.key, &Outcome::frechet_m)));
-    }
-    out += "\n";
+    std::vector<std::string> cells{name, std::to_string(trials.size())};
+    for (const Method& method : kMethods) cells.push_back(cell(mean_error(trials, method.key)));
+    table.add(std::move(cells));
   }
+  return "## Errors\n\nMean index error (Eq. 4.1) / mean discrete Frechet distance (Eq. 4.2), cm, "
+         "both in the published direction.\n\n" +
+         table.text();
 }
 
-void add_ratios(const std::vector<std::pair<std::string, Subset>>& groups, std::string& out) {
-  out +=
-      "\n## Against the refined prior\n\nRatio of mean index errors with its 95 % bootstrap "
-      "interval over scenes: below 1 is better.\n\n| group | n | model | estimate | oracle "
-      "|\n|---|---|---|---|---|\n";
+std::string ratio_table(const Groups& groups) {
+  survey::Table table({"group", "n", "model", "estimate", "oracle"});
   for (const auto& [name, trials] : groups) {
     const auto under = values(trials, kAgainst, &Outcome::index_m);
-    out += fmt::format("| {} | {} |", name, trials.size());
+    std::vector<std::string> cells{name, std::to_string(trials.size())};
     for (const char* method : {"model", "estimate", "oracle"}) {
-      const Interval ratio = ratio_interval(values(trials, method, &Outcome::index_m), under);
-      out += fmt::format(" {:.3f} [{:.3f}, {:.3f}] |", ratio.value, ratio.low, ratio.high);
+      const Interval ratio =
+          ratio_interval(values(trials, method, &Outcome::index_m).all(), under.all());
+      cells.push_back(fmt::format("{:.3f} [{:.3f}, {:.3f}]", ratio.value, ratio.low, ratio.high));
     }
-    out += "\n";
+    table.add(std::move(cells));
   }
+  return "## Against the refined prior\n\nRatio of mean index errors with its 95 % bootstrap "
+         "interval over scenes: below 1 is better.\n\n" +
+         table.text();
 }
 
-void add_spread(const Subset& trials, std::string& out) {
-  out +=
-      "\n## Spread\n\nIndex error, cm, its mean with the 95 % bootstrap interval; flips: the "
-      "ends are the other way round; strand errors: nodes over a tenth of the length astray."
-      "\n\n| method | mean | median | 95 % | over 2 cm | either way, mean | flips | strand "
-      "errors |\n|---|---|---|---|---|---|---|---|\n";
+std::string spread_table(const Subset& trials) {
+  survey::Table table({"method", "mean", "median", "95 %", "over 2 cm", "either way, mean", "flips",
+                       "strand errors"});
   for (const Method& method : kMethods) {
-    const auto index = values(trials, method.key, &Outcome::index_m);
-    const Interval interval = mean_interval(index);
-    out += fmt::format(
-        "| {} | {:.3f} [{:.3f}, {:.3f}] | {:.3f} | {:.3f} | {:.1f} % | {:.3f} | "
-        "{:.1f} % | {:.2f} % |\n",
-        method.title, kCm * interval.value, kCm * interval.low, kCm * interval.high,
-        kCm * percentile(index, 0.5), kCm * percentile(index, 0.95),
-        100 * share_beyond(index, kFar_m),
-        kCm * mean(values(trials, method.key, &Outcome::either_index_m)),
-        100 * mean(values(trials, method.key, &Outcome::flips)),
-        100 * mean(values(trials, method.key, &Outcome::strand_errors)));
+    const Values cm = in_cm(values(trials, method.key, &Outcome::index_m));
+    const Interval mean = mean_interval(cm.all());
+    const auto mean_of = [&](double Outcome::*field) {
+      return values(trials, method.key, field).mean();
+    };
+    table.add({method.title,
+               fmt::format("{:.3f} [{:.3f}, {:.3f}]", mean.value, mean.low, mean.high),
+               fmt::format("{:.3f}", cm.median()), fmt::format("{:.3f}", cm.quantile(0.95)),
+               fmt::format("{:.1f} %", cm.percent_over(kFar_cm)),
+               fmt::format("{:.3f}", kCm * mean_of(&Outcome::either_index_m)),
+               fmt::format("{:.1f} %", 100 * mean_of(&Outcome::flips)),
+               fmt::format("{:.2f} %", 100 * mean_of(&Outcome::strand_errors))});
   }
+  return "## Spread\n\nIndex error, cm, its mean with the 95 % bootstrap interval; flips: the "
+         "ends are the other way round; strand errors: nodes over a tenth of the length astray."
+         "\n\n" +
+         table.text();
 }
 
-void add_calibration(const Subset& trials, std::string& out) {
-  struct Bin {
-    int scenes = 0;
-    int close = 0;
-    double sum = 0;
-  };
-  std::array<Bin, kBins> bins;
-  double one = 0;
-  double two = 0;
-  for (const Trial* trial : trials) {
-    const double at = std::clamp(trial->confidence, 0.0, 1.0);
-    Bin& bin = bins[std::min(kBins - 1, static_cast<std::size_t>(at * kBins))];
-    ++bin.scenes;
-    bin.close += trial->of("estimate")->either_index_m < kClose_m ? 1 : 0;
-    bin.sum += at;
-    one += trial->sigma.one / static_cast<double>(trials.size());
-    two += trial->sigma.two / static_cast<double>(trials.size());
+std::string trust_table(const Groups& groups) {
+  survey::Table table({"group", "n", "under 1 cm", "mean / median / 95 %", "flips",
+                       "others with confidence < 0.5", "those under 1 cm with at least 0.5"});
+  for (const auto& [name, trials] : groups) {
+    const Values cm = in_cm(values(trials, "estimate", &Outcome::either_index_m));
+    int close = 0, trusted = 0, doubted = 0;
+    for (std::size_t i = 0; i < trials.size(); ++i) {
+      const bool sure = trials[i]->confidence >= kTrusted;
+      const bool near = cm.all()[i] < kClose_cm;
+      close += near ? 1 : 0;
+      trusted += near && sure ? 1 : 0;
+      doubted += near || sure ? 0 : 1;
+    }
+    const auto n = static_cast<int>(trials.size());
+    table.add({name, std::to_string(n), fmt::format("{:.1f} %", survey::percent(close, n)),
+               fmt::format("{:.3f} / {:.3f} / {:.3f}", cm.mean(), cm.median(), cm.quantile(0.95)),
+               fmt::format("{:.0f}", n * values(trials, "estimate", &Outcome::flips).mean()),
+               fmt::format("{} of {}", doubted, n - close),
+               fmt::format("{:.1f} %", survey::percent(trusted, close))});
   }
-  out += "\n## Calibration\n\n| confidence | scenes | index error under 1 cm |\n|---|---|---|\n";
-  double off = 0;
-  for (const Bin& bin : bins) {
-    if (bin.scenes == 0) continue;
-    const double said = bin.sum / bin.scenes;
-    const double was = static_cast<double>(bin.close) / bin.scenes;
-    off += std::abs(said - was) * bin.scenes / static_cast<double>(trials.size());
-    out += fmt::format("| {:.2f} | {} | {:.1f} % |\n", said, bin.scenes, 100 * was);
-  }
-  out += fmt::format(
-      "\nExpected calibration error {:.3f}. Nodes within one sigma_m of the truth: "
-      "{:.1f} %, within two: {:.1f} % (calibrated: 68 %, 95 %).\n",
-      off, 100 * one, 100 * two);
+  return "## The estimate, and what its confidence says\n\nIndex error, cm, in the better "
+         "direction.\n\n" +
+         table.text();
 }
 
 void add_coverage(std::span<const Trial> trials, std::string& out) {
@@ -209,23 +186,12 @@ void add_coverage(std::span<const Trial> trials, std::string& out) {
     agreement += trial.mask_agreement;
   }
   out += fmt::format(
-      "\n## Coverage\n\n{} of {} frames have an estimate, {} have a truth. {} "
+      "## Coverage\n\n{} of {} frames have an estimate, {} have a truth. {} "
       "estimates are predictions; the gate accepted {} of {} draws. Mask agreement "
       "of the estimates {:.3f}.\n",
       answered, trials.size(), with_truth, predictions, accepted, draws,
       answered > 0 ? agreement / answered : 0);
   if (!failures.empty()) out += "\nWithout an estimate:\n" + failures + "\n";
-}
-
-// A field of a CSV file: quoted where it has to be.
-std::string quoted(const std::string& text) {
-  if (text.find_first_of(",\"\n") == std::string::npos) return text;
-  std::string result = "\"";
-  for (const char letter : text) {
-    if (letter == '"') result += '"';
-    result += letter;
-  }
-  return result + "\"";
 }
 
 }  // namespace
@@ -241,9 +207,9 @@ std::string rows_csv(std::span<const Trial> trials) {
   out += "\n";
   for (const Trial& trial : trials) {
     out += fmt::format("{},{},{},{},{:d},{:d},{},{},{},{},{:.4f},{:.4f},{:.4f},{:.4f}",
-                       quoted(trial.name), quoted(trial.scene.scenario),
-                       quoted(trial.scene.material), trial.scene.crossings, trial.scene.easy(),
-                       trial.scene.hard(), quoted(trial.failure),
+                       csv_field(trial.name), csv_field(trial.scene.scenario),
+                       csv_field(trial.scene.material), trial.scene.crossings, trial.scene.easy(),
+                       trial.scene.hard(), csv_field(trial.failure),
                        trial.source == Source::kPrediction ? "prediction" : "prior", trial.draws,
                        trial.accepted_draws, trial.confidence, trial.mask_agreement,
                        trial.sigma.one, trial.sigma.two);
@@ -265,30 +231,28 @@ std::string rows_csv(std::span<const Trial> trials) {
 std::string timings_csv(std::span<const Trial> trials) {
   std::string out = "frame,total_ms\n";
   for (const Trial& trial : trials) {
-    if (trial.answered()) out += fmt::format("{},{:.2f}\n", quoted(trial.name), trial.total_ms);
+    if (trial.answered()) out += fmt::format("{},{:.2f}\n", csv_field(trial.name), trial.total_ms);
   }
   return out;
 }
 
 std::string timing_sentence(std::span<const Trial> trials) {
-  std::vector<double> total_ms;
+  Values total_ms;
   for (const Trial& trial : trials) {
-    if (trial.answered()) total_ms.push_back(trial.total_ms);
+    if (trial.answered()) total_ms.add(trial.total_ms);
   }
-  if (total_ms.empty()) return {};
-  return fmt::format("Time a frame: median {:.1f} ms, 95 % under {:.1f} ms.\n",
-                     percentile(total_ms, 0.5), percentile(total_ms, 0.95));
+  if (total_ms.count() == 0) return {};
+  return fmt::format("Time a frame: median {:.1f} ms, 95 % under {:.1f} ms.\n", total_ms.median(),
+                     total_ms.quantile(0.95));
 }
 
 std::string tables_markdown(std::span<const Trial> trials) {
   std::string out;
   const Subset subset = measured(trials);
   if (!subset.empty()) {
-    const auto groups = groups_of(subset);
-    add_errors(groups, out);
-    add_ratios(groups, out);
-    add_spread(subset, out);
-    add_calibration(subset, out);
+    const Groups groups = groups_of(subset);
+    out += error_table(groups) + ratio_table(groups) + spread_table(subset) + trust_table(groups) +
+           "## Calibration\n\n" + calibration_table(DataSet{"", subset, false});
   }
   add_coverage(trials, out);
   out += "\nThe scenes are our own, not those of the thesis: figures of the two do not compare.\n";

@@ -19,7 +19,8 @@ namespace flowdlo::eval {
 [[nodiscard]] std::string timing_sentence(std::span<const Trial> trials);
 
 /// Errors by scenario and by difficulty, each method against the refined prior with bootstrap
-/// intervals, coverage, calibration. Ends with the note that the scenes are not the thesis'.
+/// intervals, how far the estimate's confidence can be trusted, calibration, coverage. Ends with
+/// the note that the scenes are not the thesis'.
 [[nodiscard]] std::string tables_markdown(std::span<const Trial> trials);
 
 }  // namespace flowdlo::eval

@@ -4,10 +4,8 @@
 #include <fmt/format.h>
 
 #include <CLI/App.hpp>
-#include <atomic>
 #include <cstdio>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
@@ -25,7 +23,7 @@
 #include "progress_bar.hpp"
 #include "reference/program.hpp"
 #include "refine/network.hpp"
-#include "threads/team.hpp"
+#include "survey/in_parallel.hpp"
 #include "weights/field_weights.hpp"
 #include "weights/weights.hpp"
 
@@ -138,8 +136,8 @@ Result<synth::SyntheticFrame> scene_of(const lab::SampleOrigin& origin, std::uin
 using Measured = Result<std::optional<lab::GateSample>>;
 
 Measured measured_one(const Options& options, const Batch& batch, Model& model, Networks& networks,
-                      int number) {
-  const std::uint64_t index = batch.origin.first + static_cast<std::uint64_t>(number);
+                      std::uint64_t number) {
+  const std::uint64_t index = batch.origin.first + number;
   // Colours take longest, and nothing but the strand field asks for them.
   const auto scene = scene_of(batch.origin, index, networks.field.has_value());
   if (!scene) return scene.error();
@@ -156,24 +154,15 @@ Result<Samples> measured(const Options& options, const Batch& batch, int done) {
   if (!model) return model.error();
   flowdlo::support::ProgressBar bar(batch.origin.draws > 0 ? "scenes" : "scenes without model",
                                     batch.scenes - done, options.quiet);
-  std::vector<Measured> all(static_cast<std::size_t>(batch.scenes - done), Measured(std::nullopt));
-  std::atomic<int> next = done;
-  std::mutex drawing;
-  flowdlo::threads::work_together(model->sampler ? 1 : flowdlo::threads::cores(), [&](int) {
-    auto networks = networks_of(*model, options.unrefined);
-    for (int i = next++; i < batch.scenes; i = next++) {
-      Measured& one = all[static_cast<std::size_t>(i - done)];
-      if (!networks) {
-        one = networks.error();
-        continue;
-      }
-      one = measured_one(options, batch, *model, *networks, i);
-      const std::scoped_lock lock(drawing);
-      bar.advance();
-    }
-  });
+  const int threads = model->sampler ? 1 : flowdlo::threads::cores();
   Samples samples;
-  for (Measured& one : all) {
+  for (auto& one : flowdlo::survey::in_parallel<std::optional<lab::GateSample>>(
+           {static_cast<std::uint64_t>(done), static_cast<std::uint64_t>(batch.scenes - done)},
+           threads, [&] { return networks_of(*model, options.unrefined); },
+           [&](Networks&networks, std::uint64_t number) {
+             return measured_one(options, batch, *model, networks, number);
+           },
+           [&] { bar.advance(); })) {
     if (!one) return one.error();
     if (*one) samples.push_back(**std::move(one));
   }

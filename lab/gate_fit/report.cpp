@@ -7,13 +7,13 @@
 #include <cmath>
 #include <functional>
 #include <map>
-#include <set>
 
 #include "eval/interval.hpp"
 #include "eval/metrics.hpp"
 #include "gate/one_rope.hpp"
 #include "gate_fit/fit.hpp"
-#include "geometry/quantile.hpp"
+#include "survey/table.hpp"
+#include "survey/values.hpp"
 
 namespace flowdlo::lab {
 namespace {
@@ -73,99 +73,85 @@ Row row_of(const GateSample& sample, const WeightsOf& weights_of) {
   return row;
 }
 
-double mean(const std::vector<Row>& rows, const std::function<double(const Row&)>& value) {
-  double sum = 0;
-  for (const Row& row : rows) sum += value(row);
-  return rows.empty() ? 0 : sum / static_cast<double>(rows.size());
-}
+using survey::Values;
 
-std::vector<double> values(const std::vector<Row>& rows, double Row::*field) {
-  std::vector<double> result;
-  for (const Row& row : rows) result.push_back(row.*field);
+Values values(const std::vector<Row>& rows, const std::function<double(const Row&)>& value) {
+  Values result;
+  for (const Row& row : rows) result.add(value(row));
   return result;
 }
 
-std::string group_line(const std::string& name, const std::vector<Row>& rows) {
-  const auto over = [&](double Row::*field) {
-    return 100 * mean(rows, [&](const Row& row) { return row.*field > kFar_cm ? 1.0 : 0.0; });
-  };
-  const auto average = [&](double Row::*field) {
-    return mean(rows, [&](const Row& row) { return row.*field; });
-  };
-  const auto ratio =
-      eval::ratio_interval(values(rows, &Row::estimate_cm), values(rows, &Row::prior_cm));
-  return fmt::format(
-      "| {} | {} | {:.3f} | {:.3f} | {:.3f} | {:.3f} | {:.3f} | {:.3f} ({:.3f} to {:.3f}) | {:.1f} "
-      "% | {:.1f} % | {:.1f} % | {:.1f} % |\n",
-      name, rows.size(), average(&Row::prior_cm), average(&Row::draw_cm),
-      average(&Row::estimate_cm), average(&Row::oracle_priors_cm), average(&Row::oracle_cm),
-      ratio.value, ratio.low, ratio.high, over(&Row::prior_cm), over(&Row::estimate_cm),
-      100 * mean(rows, [](const Row& row) { return row.left ? 1.0 : 0.0; }),
-      100 * mean(rows, [](const Row& row) { return row.predicted ? 1.0 : 0.0; }));
+/// In percent.
+double share(const std::vector<Row>& rows, bool Row::*field) {
+  return values(rows, [&](const Row& row) { return row.*field ? 100.0 : 0.0; }).mean();
 }
 
-double median(std::vector<double> values) {
-  return values.empty() ? 0 : geometry::median_of(values);
+void add_group(const std::string& name, const std::vector<Row>& rows, survey::Table& table) {
+  std::vector<std::string> cells{name, std::to_string(rows.size())};
+  for (double Row::*const field : {&Row::prior_cm, &Row::draw_cm, &Row::estimate_cm,
+                                   &Row::oracle_priors_cm, &Row::oracle_cm}) {
+    cells.push_back(fmt::format("{:.3f}", values(rows, std::mem_fn(field)).mean()));
+  }
+  const Values prior = values(rows, std::mem_fn(&Row::prior_cm));
+  const Values estimate = values(rows, std::mem_fn(&Row::estimate_cm));
+  const auto ratio = eval::ratio_interval(estimate.all(), prior.all());
+  cells.push_back(fmt::format("{:.3f} ({:.3f} to {:.3f})", ratio.value, ratio.low, ratio.high));
+  for (const double percent : {prior.percent_over(kFar_cm), estimate.percent_over(kFar_cm),
+                               share(rows, &Row::left), share(rows, &Row::predicted)}) {
+    cells.push_back(fmt::format("{:.1f} %", percent));
+  }
+  table.add(std::move(cells));
 }
 
 /// Coverage and width of sigma_m in tenths of the scenes, least confident first.
 std::string sharpness(std::vector<Row> rows) {
   std::stable_sort(rows.begin(), rows.end(),
                    [](const Row& a, const Row& b) { return a.probability < b.probability; });
-  std::string text =
-      "\n| confidence | within one sigma_m | within two | median sigma_m, mm "
-      "|\n|---|---|---|---|\n";
+  survey::Table table({"confidence", "within one sigma_m", "within two", "median sigma_m, mm"});
   for (std::size_t tenth = 0; tenth < kBins; ++tenth) {
     const std::vector<Row> part(
         rows.begin() + static_cast<std::ptrdiff_t>(rows.size() * tenth / kBins),
         rows.begin() + static_cast<std::ptrdiff_t>(rows.size() * (tenth + 1) / kBins));
     if (part.empty()) continue;
-    text += fmt::format("| {:.3f} | {:.1f} % | {:.1f} % | {:.2f} |\n",
-                        mean(part, [](const Row& row) { return row.probability; }),
-                        100 * mean(part, [](const Row& row) { return row.one_sigma; }),
-                        100 * mean(part, [](const Row& row) { return row.two_sigma; }),
-                        median(values(part, &Row::sigma_mm)));
+    const auto mean = [&](double Row::*field) { return values(part, std::mem_fn(field)).mean(); };
+    table.add({fmt::format("{:.3f}", mean(&Row::probability)),
+               fmt::format("{:.1f} %", 100 * mean(&Row::one_sigma)),
+               fmt::format("{:.1f} %", 100 * mean(&Row::two_sigma)),
+               fmt::format("{:.2f}", values(part, std::mem_fn(&Row::sigma_mm)).median())});
   }
   std::erase_if(rows, [](const Row& row) { return !row.close; });
-  return text + fmt::format(
-                    "\nOf the {} scenes under 1 cm sigma_m is {:.2f} mm in the mean, {:.2f} in the "
-                    "median.\n",
-                    rows.size(), mean(rows, [](const Row& row) { return row.sigma_mm; }),
-                    median(values(rows, &Row::sigma_mm)));
+  const Values sigma_mm = values(rows, std::mem_fn(&Row::sigma_mm));
+  return table.text() + fmt::format(
+                            "Of the {} scenes under 1 cm sigma_m is {:.2f} mm in the mean, {:.2f} "
+                            "in the median.\n",
+                            rows.size(), sigma_mm.mean(), sigma_mm.median());
 }
 
 std::string calibration(const std::vector<Row>& rows) {
-  struct Bin {
-    int scenes = 0;
-    int close = 0;
-    double sum = 0;
-  };
-  std::array<Bin, kBins> bins;
+  std::array<std::vector<Row>, kBins> bins;
   for (const Row& row : rows) {
-    Bin& bin = bins[std::min(kBins - 1, static_cast<std::size_t>(row.probability * kBins))];
-    ++bin.scenes;
-    bin.close += row.close ? 1 : 0;
-    bin.sum += row.probability;
+    bins[std::min(kBins - 1, static_cast<std::size_t>(row.probability * kBins))].push_back(row);
   }
-  std::string text = "\n| confidence | scenes | index error under 1 cm |\n|---|---|---|\n";
+  survey::Table table({"confidence", "scenes", "index error under 1 cm"});
   double off = 0;
-  for (const Bin& bin : bins) {
-    if (bin.scenes == 0) continue;
-    const double was = static_cast<double>(bin.close) / bin.scenes;
-    off += std::abs(bin.sum - bin.close) / static_cast<double>(rows.size());
-    text +=
-        fmt::format("| {:.2f} | {} | {:.1f} % |\n", bin.sum / bin.scenes, bin.scenes, 100 * was);
+  for (const auto& bin : bins) {
+    if (bin.empty()) continue;
+    const double said = values(bin, std::mem_fn(&Row::probability)).mean();
+    const double was = share(bin, &Row::close);
+    off += std::abs(said - was / 100) *
+           survey::percent(static_cast<double>(bin.size()), static_cast<double>(rows.size())) / 100;
+    table.add(
+        {fmt::format("{:.2f}", said), std::to_string(bin.size()), fmt::format("{:.1f} %", was)});
   }
-  const auto share = [&](double Row::*field) {
-    const auto interval = eval::mean_interval(values(rows, field));
+  const auto interval_of = [&](double Row::*field) {
+    const auto interval = eval::mean_interval(values(rows, std::mem_fn(field)).all());
     return fmt::format("{:.1f} % ({:.1f} to {:.1f})", 100 * interval.value, 100 * interval.low,
                        100 * interval.high);
   };
-  return text +
+  return table.text() +
          fmt::format(
-             "\nExpected calibration error {:.3f}. Nodes within one sigma_m: {}, within two: "
-             "{}.\n",
-             off, share(&Row::one_sigma), share(&Row::two_sigma));
+             "Expected calibration error {:.3f}. Nodes within one sigma_m: {}, within two: {}.\n\n",
+             off, interval_of(&Row::one_sigma), interval_of(&Row::two_sigma));
 }
 
 }  // namespace
@@ -178,15 +164,13 @@ std::string report(const std::vector<GateSample>& samples, const WeightsOf& weig
     groups[sample.easy ? " easy" : sample.hard ? " hard" : " middle"].push_back(row);
     groups[sample.scenario].push_back(row);
   }
-  std::string text =
-      "| group | scenes | prior cm | first draw | estimate | oracle of priors | oracle | estimate "
-      "/ "
-      "prior | prior > 2 cm | estimate > 2 cm | prior left | predictions |\n"
-      "|---|---|---|---|---|---|---|---|---|---|---|---|\n";
+  survey::Table table({"group", "scenes", "prior cm", "first draw", "estimate", "oracle of priors",
+                       "oracle", "estimate / prior", "prior > 2 cm", "estimate > 2 cm",
+                       "prior left", "predictions"});
   for (const auto& [name, rows] : groups) {
-    text += group_line(name.starts_with(' ') ? name.substr(1) : name, rows);
+    add_group(name.starts_with(' ') ? name.substr(1) : name, rows, table);
   }
-  return text + calibration(groups[" all"]) + sharpness(groups[" all"]);
+  return table.text() + calibration(groups[" all"]) + sharpness(groups[" all"]);
 }
 
 }  // namespace flowdlo::lab

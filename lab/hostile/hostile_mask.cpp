@@ -199,6 +199,7 @@ struct Family {
   std::string_view name;
   void (*draw)(Mat& mask, int amount);
   std::vector<int> amounts;
+  bool lines = false;  ///< it holds something that could be a rope
 };
 
 const std::vector<Family>& families() {
@@ -207,19 +208,19 @@ const std::vector<Family>& families() {
       {"blobs", blobs, {3, 9, 27}},
       {"checker", checker, {1, 2, 8, 33}},
       {"grid", grid, {6, 20, 80}},
-      {"spiral", spiral, {8, 40}},
+      {"spiral", spiral, {8, 40}, true},
       {"text", text, {12, 40}},
       {"comb", comb, {2}},
-      {"hairs", hairs, {20, 400}},
+      {"hairs", hairs, {20, 400}, true},
       {"dots", dots, {6, 14}},
       {"triangle", triangle, {1}},
       {"carpet", carpet, {1}},
-      {"hilbert", hilbert, {4}},
+      {"hilbert", hilbert, {4}, true},
       {"full", full, {0, 3}},
       {"disc", disc, {60}},
-      {"ropes", ropes, {2, 12}},
-      {"tangle", tangle, {6, 60}},
-      {"ragged", ragged, {3}},
+      {"ropes", ropes, {2, 12}, true},
+      {"tangle", tangle, {6, 60}, true},
+      {"ragged", ragged, {3}, true},
   };
   return list;
 }
@@ -243,6 +244,15 @@ std::vector<HostileMask> hostile_corpus() {
     }
   }
   return corpus;
+}
+
+std::vector<HostileMask> ropeless_masks(const cv::Size& size_px) {
+  std::vector<HostileMask> masks;
+  for (const Family& family : families()) {
+    if (family.lines) continue;
+    for (const int amount : family.amounts) masks.push_back({family.name, amount, size_px});
+  }
+  return masks;
 }
 
 cv::Mat draw(const HostileMask& mask) {

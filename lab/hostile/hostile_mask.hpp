@@ -22,6 +22,9 @@ struct HostileMask {
 /// The corpus: 40 patterns on five sizes from 64 x 64 to 4096 x 4096, 200 masks, in a fixed order.
 [[nodiscard]] std::vector<HostileMask> hostile_corpus();
 
+/// Those of that size that hold no rope: noise, patterns, text, blobs; 30 of them.
+[[nodiscard]] std::vector<HostileMask> ropeless_masks(const cv::Size& size_px);
+
 /// The sizes of the corpus, ascending.
 [[nodiscard]] std::vector<cv::Size> hostile_sizes();
 

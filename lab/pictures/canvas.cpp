@@ -40,13 +40,6 @@ void Canvas::write(const std::string& text, cv::Point at, double size) {
   cv::putText(picture_, text, at, cv::FONT_HERSHEY_SIMPLEX, size, kInk, 1, cv::LINE_AA);
 }
 
-void Canvas::write_over(const std::string& text, cv::Point at, double size) {
-  const cv::Size box = size_of(text, size);
-  cv::rectangle(picture_, {at.x - 2, at.y - box.height - 2, box.width + 4, box.height + 5},
-                cv::Scalar::all(255), cv::FILLED);
-  write(text, at, size);
-}
-
 void Canvas::write_left_of(const std::string& text, cv::Point at, double size) {
   write(text, {at.x - size_of(text, size).width, at.y}, size);
 }

@@ -12,7 +12,6 @@
 namespace flowdlo::pictures {
 
 /// Colours of the figures, BGR; those of the thesis' figures where it has some.
-inline const cv::Scalar kTruthColor{60, 160, 40};
 inline const cv::Scalar kBaselineColor{30, 130, 240};
 inline const cv::Scalar kPriorColor{150, 150, 150};
 inline const cv::Scalar kEstimateColor{180, 60, 60};
@@ -31,8 +30,6 @@ class Canvas {
   Canvas(int width, int height);
 
   void write(const std::string& text, cv::Point at, double size = 0.42);
-  /// On white, where a drawing lies behind it.
-  void write_over(const std::string& text, cv::Point at, double size = 0.42);
   /// Ends at `at.x`.
   void write_left_of(const std::string& text, cv::Point at, double size = 0.42);
   void write_centred(const std::string& text, cv::Point at, double size = 0.42);

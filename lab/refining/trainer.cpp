@@ -3,10 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <random>
 #include <utility>
+
+#include "survey/table.hpp"
+#include "survey/values.hpp"
 
 namespace flowdlo::refining {
 namespace {
@@ -101,69 +105,60 @@ void follow(Network& average, const Network& network, double decay) {
   }
 }
 
-struct Sums {
-  int scenes = 0;
-  double deep[2] = {0, 0};
-  double aside[2] = {0, 0};
-  double index[2] = {0, 0};
-  std::vector<double> medians[2];
+/// Of scenes, before and after, mm.
+struct Errors {
+  std::array<survey::Values, 2> deep, aside, index;
 };
 
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
-void add(const StripSample& sample, const Tensor& said, Sums& sums) {
+void add(const StripSample& sample, const Tensor& said, Errors& errors) {
   const auto values = said.accessor<float, 2>();
   const double mm = 1000 * static_cast<double>(sample.truth.radius_m);
-  double index[2] = {0, 0};
-  for (std::size_t i = 0; i < kNodes; ++i) {
-    for (const int after : {0, 1}) {
+  for (const std::size_t after : {0, 1}) {
+    double deep_mm = 0, aside_mm = 0, index_mm = 0;
+    for (std::size_t i = 0; i < kNodes; ++i) {
       const auto of = [&](float truth, int column) {
         const float moved = values[static_cast<std::int64_t>(i)][column];
         return mm * static_cast<double>(truth - static_cast<float>(after) * moved);
       };
       const double deep = of(sample.truth.deep[i], 0);
       const double aside = of(sample.truth.aside[i], 1);
-      sums.deep[after] += std::abs(deep) / kNodes;
-      sums.aside[after] += std::abs(aside) / kNodes;
-      index[after] +=
-          std::hypot(deep, aside, mm * static_cast<double>(sample.truth.along[i])) / kNodes;
+      deep_mm += std::abs(deep) / kNodes;
+      aside_mm += std::abs(aside) / kNodes;
+      index_mm += std::hypot(deep, aside, mm * static_cast<double>(sample.truth.along[i])) / kNodes;
     }
-  }
-  ++sums.scenes;
-  for (const int after : {0, 1}) {
-    sums.index[after] += index[after];
-    sums.medians[after].push_back(index[after]);
+    errors.deep[after].add(deep_mm);
+    errors.aside[after].add(aside_mm);
+    errors.index[after].add(index_mm);
   }
 }
 
-std::string row(const char* name, const Sums& sums) {
-  if (sums.scenes == 0) return "";
-  const auto both = [&](const double* values) {
-    return fmt::format("{:.2f}, {:.2f}", values[0] / sums.scenes, values[1] / sums.scenes);
-  };
-  return fmt::format("| {} | {} | {} | {} | {} | {:.2f}, {:.2f} |\n", name, sums.scenes,
-                     both(sums.deep), both(sums.aside), both(sums.index), median(sums.medians[0]),
-                     median(sums.medians[1]));
+void add_row(const char* name, const Errors& errors, survey::Table& table) {
+  if (errors.index[0].count() == 0) return;
+  std::vector<std::string> cells{name, std::to_string(errors.index[0].count())};
+  for (const auto* both : {&errors.deep, &errors.aside, &errors.index}) {
+    cells.push_back(fmt::format("{:.2f}, {:.2f}", (*both)[0].mean(), (*both)[1].mean()));
+  }
+  cells.push_back(
+      fmt::format("{:.2f}, {:.2f}", errors.index[0].median(), errors.index[1].median()));
+  table.add(std::move(cells));
 }
 
 std::string table_of(Network& network, const std::vector<StripSample>& samples,
                      double most_index_mm) {
   const torch::NoGradGuard no_gradients;
-  Sums of_model;
-  Sums of_matched;
+  Errors of_model;
+  Errors of_matched;
   for (std::size_t i = 0; i < samples.size(); ++i) {
     const StripSample& sample = samples[i];
     if (!held_out(sample) || static_cast<double>(sample.truth.index_mm) > most_index_mm) continue;
     const Tensor said = network->forward(batch_of(samples, {i}).strips)[0].contiguous();
     add(sample, said, sample.truth.matched > 0 ? of_matched : of_model);
   }
-  return "| depth | held-out scenes | deep, mm, before and after | aside | index error | median "
-         "index error |\n|---|---|---|---|---|---|\n" +
-         row("model of the noise", of_model) + row("matched", of_matched);
+  survey::Table table({"depth", "held-out scenes", "deep, mm, before and after", "aside",
+                       "index error", "median index error"});
+  add_row("model of the noise", of_model, table);
+  add_row("matched", of_matched, table);
+  return table.text();
 }
 
 weights::Tensor laid_out(const std::string& name, const Tensor& weight, int rows) {

@@ -45,7 +45,7 @@ json curves_of(const eval::Trial& trial) {
   if (trial.with_truth) curves["truth"] = json::array({line_of(trial.truth)});
   if (trial.answered()) curves["estimate"] = json::array({line_of(trial.nodes)});
   for (const auto& [method, draws] : trial.curves) {
-    if (draws.empty() || method.find('@') != std::string::npos) continue;
+    if (draws.empty()) continue;
     json& lines = curves[method] = json::array();
     for (const Centerline& nodes : draws) lines.push_back(line_of(nodes));
   }

@@ -259,6 +259,8 @@ bool attempt(Kind kind, Random& random, Scene& scene) {
 
 std::string_view name_of(Kind kind) { return kNames[static_cast<std::size_t>(kind)]; }
 
+std::span<const std::string_view> kind_names() { return kNames; }
+
 std::optional<Kind> kind_of(std::string_view name) {
   for (int i = 0; i < kKinds; ++i) {
     if (kNames[static_cast<std::size_t>(i)] == name) return static_cast<Kind>(i);

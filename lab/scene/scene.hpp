@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -29,6 +30,8 @@ enum class Kind {
 inline constexpr int kKinds = 11;
 
 [[nodiscard]] std::string_view name_of(Kind kind);
+/// In the order of the enumerators.
+[[nodiscard]] std::span<const std::string_view> kind_names();
 [[nodiscard]] std::optional<Kind> kind_of(std::string_view name);
 
 struct Scene {

@@ -4,10 +4,11 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
-#include <vector>
+#include <utility>
 
 #include "flowdlo/result.hpp"
 #include "strand/patch.hpp"
+#include "survey/shards.hpp"
 
 namespace flowdlo::strand {
 
@@ -35,20 +36,15 @@ class PatchStore {
   /// damaged, with kIo where one cannot be read.
   [[nodiscard]] static Result<PatchStore> open(const std::filesystem::path& folder);
 
-  [[nodiscard]] std::size_t size() const { return places_.size(); }
+  [[nodiscard]] std::size_t size() const { return store_.size(); }
 
   /// Fails with kIo and kBadInput.
   [[nodiscard]] Result<Patch> read(std::size_t index) const;
 
  private:
-  struct Place {
-    std::size_t shard = 0;
-    std::uint64_t offset = 0;
-    std::uint64_t bytes = 0;
-  };
+  explicit PatchStore(survey::ShardStore store) : store_(std::move(store)) {}
 
-  std::vector<std::filesystem::path> shards_;
-  std::vector<Place> places_;
+  survey::ShardStore store_;
 };
 
 }  // namespace flowdlo::strand

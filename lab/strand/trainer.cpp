@@ -2,11 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <fstream>
 #include <numbers>
 #include <optional>
+#include <span>
 
 #include "field/channel.hpp"
 #include "field/sight.hpp"
@@ -19,6 +21,23 @@ namespace flowdlo::strand {
 namespace {
 
 using torch::Tensor;
+
+/// The loss's parts by name; LossConfig holds their weights, and their sums over some steps.
+struct Part {
+  const char* name;
+  double LossConfig::*weight;
+  Tensor LossParts::*value;
+};
+constexpr std::array<Part, 7> kPartList{{
+    {"centre", &LossConfig::centre, &LossParts::centre},
+    {"direction", &LossConfig::direction, &LossParts::direction},
+    {"tip", &LossConfig::tip, &LossParts::tip},
+    {"under", &LossConfig::under, &LossParts::under},
+    {"width", &LossConfig::width, &LossParts::width},
+    {"rope", &LossConfig::rope, &LossParts::rope},
+    {"edge", &LossConfig::edge, &LossParts::edge},
+}};
+constexpr std::span<const Part> kParts(kPartList);
 
 constexpr int kCheckpointVersion = 1;
 constexpr double kNoteEvery = 20;  // steps
@@ -161,40 +180,12 @@ LossParts step_once(State& state, const Batch& batch, torch::Device device) {
   return parts;
 }
 
-std::string slashed(std::string name) {
-  for (char& letter : name) letter = letter == '.' ? '/' : letter;
-  return name;
-}
-
-void write_module(torch::serialize::OutputArchive& archive, const char* key, Network network) {
-  torch::serialize::OutputArchive inside;
-  for (const auto& item : network->named_parameters()) {
-    inside.write(slashed(item.key()), item.value().detach().to(torch::kCPU));
-  }
-  for (const auto& item : network->named_buffers()) {
-    inside.write(slashed(item.key()), item.value().detach().to(torch::kCPU));
-  }
-  archive.write(key, inside);
-}
-
-void read_module(torch::serialize::InputArchive& archive, const char* key, Network network) {
-  const torch::NoGradGuard no_gradients;
-  torch::serialize::InputArchive inside;
-  archive.read(key, inside);
-  const auto take = [&](const std::string& name, Tensor& into) {
-    Tensor saved;
-    inside.read(slashed(name), saved);
-    into.copy_(saved);
-  };
-  for (auto& item : network->named_parameters()) take(item.key(), item.value());
-  for (auto& item : network->named_buffers()) take(item.key(), item.value());
-}
-
 }  // namespace
 
 Tensor LossParts::total(const LossConfig& weights) const {
-  return weights.centre * centre + weights.direction * direction + weights.tip * tip +
-         weights.under * under + weights.width * width + weights.rope * rope + weights.edge * edge;
+  Tensor sum = weights.centre * centre;
+  for (const Part& part : kParts.subspan(1)) sum = sum + weights.*part.weight * this->*part.value;
+  return sum;
 }
 
 LossParts loss_of(const Tensor& output, const Tensor& target, const Tensor& planes) {
@@ -299,10 +290,10 @@ Result<void> save_checkpoint(const State& state, const std::filesystem::path& fi
   return train::write_archive(file, [&](torch::serialize::OutputArchive& archive) {
     archive.write("field_version", c10::IValue(kCheckpointVersion));
     archive.write("step", c10::IValue(state.step));
-    archive.write("recipe", c10::IValue(to_json(state.recipe)));
-    archive.write("command", c10::IValue(state.command));
-    write_module(archive, "network", state.network);
-    write_module(archive, "average", state.average);
+    train::put_text(archive, "recipe", to_json(state.recipe));
+    train::put_text(archive, "command", state.command);
+    train::write_module(archive, "network", *state.network);
+    train::write_module(archive, "average", *state.average);
     torch::serialize::OutputArchive optimizer;
     state.optimizer->save(optimizer);
     archive.write("optimizer", optimizer);
@@ -310,36 +301,24 @@ Result<void> save_checkpoint(const State& state, const std::filesystem::path& fi
 }
 
 Result<State> load_checkpoint(const std::filesystem::path& file, torch::Device device) {
-  if (!std::filesystem::is_regular_file(file)) {
-    return Error{ErrorCode::kIo,
-                 fmt::format("{}: expected a checkpoint; check the path", file.string())};
-  }
-  try {
-    torch::serialize::InputArchive archive;
-    archive.load_from(file.string(), device);
-    c10::IValue value;
-    archive.read("field_version", value);
-    if (value.toInt() != kCheckpointVersion) throw std::runtime_error("another version");
-    archive.read("recipe", value);
-    const auto recipe = parse_recipe(value.toStringRef(), file.string() + ": recipe");
+  const auto read = [&](torch::serialize::InputArchive& archive) -> Result<State> {
+    if (train::get_whole(archive, "field_version") != kCheckpointVersion) {
+      throw std::runtime_error("another version");
+    }
+    const auto recipe =
+        parse_recipe(train::get_text(archive, "recipe"), file.string() + ": recipe");
     if (!recipe) return recipe.error();
     State state = start(*recipe, device);
-    archive.read("step", value);
-    state.step = value.toInt();
-    archive.read("command", value);
-    state.command = value.toStringRef();
-    read_module(archive, "network", state.network);
-    read_module(archive, "average", state.average);
+    state.step = train::get_whole(archive, "step");
+    state.command = train::get_text(archive, "command");
+    train::read_module(archive, "network", *state.network);
+    train::read_module(archive, "average", *state.average);
     torch::serialize::InputArchive optimizer;
     archive.read("optimizer", optimizer);
     state.optimizer->load(optimizer);
     return state;
-  } catch (const std::exception& thrown) {
-    return Error{ErrorCode::kBadInput,
-                 fmt::format("{}: expected a checkpoint of flowdlo-train field, got \"{}\"; start "
-                             "again or give another file",
-                             file.string(), thrown.what())};
-  }
+  };
+  return train::read_archive<State>(file, device, "flowdlo-train field", read);
 }
 
 Result<void> train(State& state, const RunOptions& options, torch::Device device) {
@@ -355,7 +334,11 @@ Result<void> train(State& state, const RunOptions& options, torch::Device device
   std::error_code ignored;
   std::filesystem::create_directories(options.folder, ignored);
   std::ofstream log(options.folder / "steps.csv", std::ios::app);
-  if (log.tellp() == 0) log << "step,rate,total,centre,direction,tip,under,width,rope,edge\n";
+  if (log.tellp() == 0) {
+    log << "step,rate,total";
+    for (const Part& part : kParts) log << ',' << part.name;
+    log << '\n';
+  }
   auto maker = std::make_unique<BatchMaker>(pool, *store, state.recipe, state.step);
   auto begin = Clock::now();
   LossConfig sums{0, 0, 0, 0, 0, 0, 0};
@@ -378,27 +361,21 @@ Result<void> train(State& state, const RunOptions& options, torch::Device device
                                value, state.step)};
     }
     total += value;
-    sums.centre += parts.centre.item<double>();
-    sums.direction += parts.direction.item<double>();
-    sums.tip += parts.tip.item<double>();
-    sums.under += parts.under.item<double>();
-    sums.width += parts.width.item<double>();
-    sums.rope += parts.rope.item<double>();
-    sums.edge += parts.edge.item<double>();
+    for (const Part& part : kParts) sums.*part.weight += (parts.*part.value).item<double>();
     if (state.step % static_cast<std::int64_t>(kNoteEvery) == 0) {
       const double n = kNoteEvery;
       const std::chrono::duration<double> elapsed = Clock::now() - begin;
-      log << fmt::format("{},{:.3g},{:.5g},{:.5g},{:.5g},{:.5g},{:.5g},{:.5g},{:.5g},{:.5g}\n",
-                         state.step, rate_at(schedule, state.step), total / n, sums.centre / n,
-                         sums.direction / n, sums.tip / n, sums.under / n, sums.width / n,
-                         sums.rope / n, sums.edge / n)
-          << std::flush;
+      log << fmt::format("{},{:.3g},{:.5g}", state.step, rate_at(schedule, state.step), total / n);
+      std::string told;
+      for (const Part& part : kParts) {
+        log << fmt::format(",{:.5g}", sums.*part.weight / n);
+        told += fmt::format("  {} {:.5f}", part.name, sums.*part.weight / n);
+      }
+      log << std::endl;
       if (options.on_note) {
-        options.on_note(fmt::format(
-            "{}/{}  loss {:.4f}  centre {:.4f}  direction {:.4f}  tip {:.5f}  under {:.5f}  width "
-            "{:.4f}  {} patches  {:.2f} s a step",
-            state.step, schedule.steps, total / n, sums.centre / n, sums.direction / n,
-            sums.tip / n, sums.under / n, sums.width / n, store->size(), elapsed.count() / n));
+        options.on_note(fmt::format("{}/{}  loss {:.4f}{}  {} patches  {:.2f} s a step", state.step,
+                                    schedule.steps, total / n, told, store->size(),
+                                    elapsed.count() / n));
       }
       sums = {0, 0, 0, 0, 0, 0, 0};
       total = 0;

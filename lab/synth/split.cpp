@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 
+#include "scene/scene.hpp"
 #include "synth/group.hpp"
 #include "synth/rope.hpp"
 #include "synth/synthetic_frame.hpp"
@@ -28,16 +29,18 @@ std::string_view name_of(Split split) {
       return "wide";
     case Split::kSeveral:
       return "several";
+    case Split::kDrawn:
+      break;
   }
-  return "";
+  return "drawn";
 }
 
 std::string_view name_of(Part part) { return part == Part::kTraining ? "training" : "validation"; }
 
 std::optional<Split> split_of(std::string_view name) {
-  if (name == "thesis") return Split::kThesis;
-  if (name == "wide") return Split::kWide;
-  if (name == "several") return Split::kSeveral;
+  for (const Split split : {Split::kThesis, Split::kWide, Split::kSeveral, Split::kDrawn}) {
+    if (name == name_of(split)) return split;
+  }
   return std::nullopt;
 }
 
@@ -57,6 +60,7 @@ std::uint64_t scene_count(Split split, Part part) {
 std::span<const std::string_view> scenarios(Split split) {
   if (split == Split::kThesis) return kThesisScenarios;
   if (split == Split::kSeveral) return kSeveralScenarios;
+  if (split == Split::kDrawn) return lab::kind_names();
   return kWideScenarios;
 }
 

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "synth/depth_sensor.hpp"
+#include "synth/drawn_frame.hpp"
 #include "synth/faults.hpp"
 #include "synth/findings.hpp"
 #include "synth/group.hpp"
@@ -37,6 +38,7 @@ struct Stage {
 
 std::string_view scenario_of(const SceneKey& key) {
   if (key.split == Split::kThesis) return thesis_group(key.part, key.index);
+  if (key.split == Split::kDrawn) return lab::kind_names()[key.index % lab::kKinds];
   Dice dice(key, Use::kScenario);
   if (key.split == Split::kSeveral) return kSeveralScenarios[dice.pick({30, 20, 20, 15, 15})];
   return kWideScenarios[dice.pick({18, 13, 14, 11, 12, 8, 8, 9, 7})];
@@ -113,16 +115,23 @@ bool shows_enough(const Stage& stage, const Picture& picture) {
   return true;
 }
 
+std::uint64_t most_scenes(Split split, Part part) {
+  if (split == Split::kThesis) return scene_count(split, part);
+  const bool ends = split == Split::kDrawn && part == Part::kTraining;
+  return ends ? kFirstDrawnValidation * lab::kKinds : kMostScenes;
+}
+
 Result<void> check(Split split, Part part, std::uint64_t index, int frame) {
-  const std::uint64_t count = split == Split::kThesis ? scene_count(split, part) : kMostScenes;
+  const std::uint64_t count = most_scenes(split, part);
   std::string faults;
   if (index >= count) {
     faults = fmt::format("make_frame: index: expected below {} ({} {}), got {}", count,
                          name_of(split), name_of(part), index);
   }
-  if (frame < 0) {
-    faults += fmt::format("{}make_frame: render.frame: expected 0 or more, got {}",
-                          faults.empty() ? "" : "\n", frame);
+  if (frame < 0 || (split == Split::kDrawn && frame > 0)) {
+    faults +=
+        fmt::format("{}make_frame: render.frame: expected {}, got {}", faults.empty() ? "" : "\n",
+                    split == Split::kDrawn ? "0 of a drawn scene" : "0 or more", frame);
   }
   if (faults.empty()) return {};
   return Error{ErrorCode::kBadInput, faults};
@@ -137,6 +146,19 @@ Meta identity_of(const SceneKey& key, std::string_view scenario, int frame) {
   meta.index = key.index;
   meta.frame = frame;
   return meta;
+}
+
+SyntheticFrame drawn(const SceneKey& key, bool color) {
+  const auto kind = static_cast<lab::Kind>(key.index % lab::kKinds);
+  SyntheticFrame frame = drawn_frame(kind, drawn_seed(key.part, key.seed, key.index));
+  const Meta identity = identity_of(key, frame.meta.scenario, 0);
+  frame.meta.split = identity.split;
+  frame.meta.part = identity.part;
+  frame.meta.seed = identity.seed;
+  frame.meta.index = identity.index;
+  frame.folder.name = folder_name(frame.meta);
+  if (!color) frame.folder.color_bgr.clear();
+  return frame;
 }
 
 void describe(const Stage& stage, const Material& material, Meta& meta) {
@@ -297,6 +319,7 @@ Result<SyntheticFrame> make_frame(Split split, Part part, std::uint64_t seed, st
                                   const Render& render) {
   if (const auto good = check(split, part, index, render.frame); !good) return good.error();
   const SceneKey key{split, part, seed, index};
+  if (split == Split::kDrawn) return drawn(key, render.color);
   Scene scene(key, scenario_of(key));
   if (const auto ready = scene.set_up(); !ready) return ready.error();
   return scene.taken(render);

@@ -20,8 +20,9 @@
 namespace flowdlo::synth {
 
 /// kThesis: nine groups on a table, 0.3 to 0.5 m away, clean depth. kWide: whatever a user brings.
-/// kSeveral: the same with two to nine ropes in one mask.
-enum class Split { kThesis, kWide, kSeveral };
+/// kSeveral: the same with two to nine ropes in one mask. kDrawn: lab/scene's tubes in a plain
+/// z-buffer, one frame each, without dense truth.
+enum class Split { kThesis, kWide, kSeveral, kDrawn };
 
 /// The two never share a scene, whatever the seeds: the part is a bit of every random counter.
 enum class Part { kTraining, kValidation };
@@ -150,12 +151,12 @@ struct Window {
 
 /// What to render besides depth and mask.
 struct Render {
-  bool color = true;   ///< false: color_bgr stays empty, for training records; all else is the same
-  int frame = 0;       ///< of this static scene; others differ in sensor noise and light alone.
-                       ///< 0 plays the role of the thesis' representative frame 50, Sec. 4.1.1
+  bool color = true;  ///< false: color_bgr stays empty, for training records; all else is the same
+  int frame = 0;      ///< of this static scene; others differ in sensor noise and light alone.
+                      ///< 0 plays the role of the thesis' representative frame 50, Sec. 4.1.1
   bool matched = false;  ///< a stereo camera's depth by matching two infrared pictures, as such
                          ///< cameras do (stereo_pair.hpp), not by a model of their noise
-  bool dense = false;  ///< fill SyntheticFrame::dense
+  bool dense = false;    ///< fill SyntheticFrame::dense
   /// The only parts that get colours, of a frame that has all but these; the rest stays black.
   /// Colours take most of a frame's time. Empty: everything.
   std::function<std::vector<Window>(const SyntheticFrame&)> windows = {};

@@ -49,25 +49,11 @@ class ReadVisitor {
   }
   template <class T>
   void whole(const char* key, T& value, double least, double most) {
-    const Json* found = find(key);
-    if (found == nullptr) return;
-    const double number = found->is_number() ? found->get<double>() : least - 1;
-    if (number < least || number > most || number != std::floor(number)) {
-      fault(key, fmt::format("a whole number from {} to {}", least, most), *found);
-    } else {
-      value = static_cast<T>(number);
-    }
+    number(key, value, least, most, /*whole=*/true);
   }
   template <class T>
   void real(const char* key, T& value, double least, double most) {
-    const Json* found = find(key);
-    if (found == nullptr) return;
-    const double number = found->is_number() ? found->get<double>() : least - 1;
-    if (number >= least && number <= most) {
-      value = static_cast<T>(number);
-    } else {
-      fault(key, fmt::format("a number from {} to {}", least, most), *found);
-    }
+    number(key, value, least, most, /*whole=*/false);
   }
   template <class T>
   void choice(const char* key, T& value, const Names<T>& names) {
@@ -102,6 +88,18 @@ class ReadVisitor {
   }
 
  private:
+  template <class T>
+  void number(const char* key, T& value, double least, double most, bool whole) {
+    const Json* found = find(key);
+    if (found == nullptr) return;
+    const double number = found->is_number() ? found->get<double>() : least - 1;
+    if (number >= least && number <= most && (!whole || number == std::floor(number))) {
+      value = static_cast<T>(number);
+    } else {
+      fault(key, fmt::format("a {}number from {} to {}", whole ? "whole " : "", least, most),
+            *found);
+    }
+  }
   const Json* find(const char* key) {
     known_.insert(key);
     const auto found = json_.find(key);

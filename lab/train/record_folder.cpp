@@ -3,13 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <atomic>
 #include <exception>
-#include <mutex>
 #include <optional>
 #include <utility>
 
-#include "threads/team.hpp"
+#include "survey/in_parallel.hpp"
 #include "weights/sha256.hpp"
 
 namespace flowdlo::train {
@@ -26,44 +24,24 @@ std::string origin_of(const SourceConfig& source, const RecordOptions& options) 
                      options.with_depth ? " with depth" : "");
 }
 
-/// What a scene came to: a record, nothing where the engine has no estimate, or a fault that must
-/// end the whole run.
-struct Outcome {
-  std::optional<Record> record;
-  std::optional<Error> fault;
-};
+using Outcome = Result<std::optional<Record>>;
 
+/// A record, or nothing where the engine has no estimate. What fails must end the whole run.
 Outcome outcome_of(const SceneSource& source, const RecordOptions& options, Part part,
                    std::uint64_t index) {
   try {
     const auto frame = source(part, index);
-    if (!frame) return {std::nullopt, frame.error()};
+    if (!frame) return frame.error();
     auto record = make_record(frame->labelled, options);
-    if (record) return {*std::move(record), std::nullopt};
+    if (record) return std::optional(*std::move(record));
     const ErrorCode code = record.error().code;
-    if (code == ErrorCode::kNoPath || code == ErrorCode::kNoEvidence) return {};
-    return {std::nullopt, record.error()};
+    if (code == ErrorCode::kNoPath || code == ErrorCode::kNoEvidence)
+      return std::optional<Record>();
+    return record.error();
   } catch (const std::exception& thrown) {
-    return {std::nullopt, Error{ErrorCode::kInternal, fmt::format("scene {} of {}: {}", index,
-                                                                  name_of(part), thrown.what())}};
+    return Error{ErrorCode::kInternal,
+                 fmt::format("scene {} of {}: {}", index, name_of(part), thrown.what())};
   }
-}
-
-/// `count` outcomes from scene `first` on, in their order, whichever thread made them.
-std::vector<Outcome> outcomes(const SceneSource& source, const RecordOptions& options, Part part,
-                              std::uint64_t first, std::uint32_t count, int threads,
-                              const Progress& progress) {
-  std::vector<Outcome> made(count);
-  std::atomic<std::uint32_t> next = 0;
-  std::mutex told;
-  threads::work_together(std::max(threads, 1), [&](int) {
-    for (std::uint32_t i = next++; i < count; i = next++) {
-      made[i] = outcome_of(source, options, part, first + i);
-      const std::lock_guard lock(told);
-      if (progress) progress();
-    }
-  });
-  return made;
 }
 
 Error of_another_origin(const std::filesystem::path& file, const std::string& expected,
@@ -89,8 +67,8 @@ Result<void> check_kept(const std::filesystem::path& file, const std::string& or
   if (shard->records.empty()) return {};
   const Record& kept = shard->records.front();
   const Outcome again = outcome_of(source, options, part, kept.index);
-  if (again.fault) return *again.fault;
-  if (again.record && same(*again.record, kept)) return {};
+  if (!again) return again.error();
+  if (*again && same(**again, kept)) return {};
   return Error{ErrorCode::kBadInput,
                fmt::format("{}: expected the records that this program makes, got other ones of "
                            "scene {}; delete the folder: engine or scene maker have changed",
@@ -123,11 +101,15 @@ Result<void> make_records(const std::filesystem::path& folder, Part part, std::u
     if (shard.first >= total) return {};
     shard.scenes =
         static_cast<std::uint32_t>(std::min<std::uint64_t>(kShardScenes, total - shard.first));
-    for (Outcome& outcome :
-         outcomes(*make_scene, options, part, shard.first, shard.scenes, threads, progress)) {
-      if (outcome.fault) return *outcome.fault;
-      if (outcome.record) {
-        shard.records.push_back(*std::move(outcome.record));
+    for (Outcome& outcome : survey::in_parallel<std::optional<Record>>(
+             {shard.first, shard.scenes}, std::max(threads, 1), survey::no_tool,
+             [&](survey::Nothing, std::uint64_t index) {
+               return outcome_of(*make_scene, options, part, index);
+             },
+             progress)) {
+      if (!outcome) return outcome.error();
+      if (*outcome) {
+        shard.records.push_back(**std::move(outcome));
       } else {
         ++shard.skipped;
       }

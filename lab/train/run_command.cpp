@@ -1,15 +1,13 @@
 // flowdlo-train train and resume: a run from its recipe, or from its checkpoint.
 #include <fmt/format.h>
-#include <unistd.h>
 
-#include <chrono>
-#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
 
+#include "progress_bar.hpp"
 #include "train/blas.hpp"
 #include "train/commands.hpp"
 #include "train/device.hpp"
@@ -34,43 +32,6 @@ struct Arguments {
   std::string command;
 };
 
-/// One line on a terminal, rewritten every step; nothing elsewhere.
-class Progress {
- public:
-  Progress(std::int64_t total, bool quiet)
-      : total_(total), enabled_(!quiet && ::isatty(STDERR_FILENO) == 1) {}
-
-  void show(const StepReport& report) {
-    constexpr double kKeep = 0.95;
-    rate_ = rate_ > 0 ? kKeep * rate_ + (1 - kKeep) * report.records_per_s : report.records_per_s;
-    if (!enabled_) return;
-    constexpr int kWidth = 24;
-    const auto filled = static_cast<int>(kWidth * report.step / std::max<std::int64_t>(1, total_));
-    const double left_s = static_cast<double>(total_ - report.step) * batch / std::max(rate_, 1e-9);
-    fmt::print(
-        stderr,
-        "\r\x1b[K[{:#<{}}{:.<{}}] {}/{}  loss {:.4f}  {:.1f} records/s  {:.0f}:{:02.0f} h left", "",
-        filled, "", kWidth - filled, report.step, total_, report.total, rate_,
-        std::floor(left_s / 3600), std::fmod(left_s / 60, 60));
-    std::fflush(stderr);
-    drawn_ = true;
-  }
-  void note(const std::string& line) {
-    if (drawn_) fmt::print(stderr, "\r\x1b[K");
-    drawn_ = false;
-    fmt::print("{}\n", line);
-    std::fflush(stdout);
-  }
-
-  int batch = 1;
-
- private:
-  std::int64_t total_;
-  bool enabled_;
-  bool drawn_ = false;
-  double rate_ = 0;
-};
-
 void say_blas() {
   const Blas blas = find_blas();
   fmt::print("BLAS: {}\n", blas.name);
@@ -84,20 +45,25 @@ void say_blas() {
 }
 
 int run(TrainingState& state, const Arguments& arguments, torch::Device device) {
-  Progress progress(state.recipe.optimizer.steps, arguments.quiet);
-  progress.batch = state.recipe.optimizer.batch;
+  support::ProgressBar bar("steps", static_cast<int>(state.recipe.optimizer.steps - state.step),
+                           arguments.quiet);
+  const auto note = [&](const std::string& line) {
+    bar.clear();
+    fmt::print("{}\n", line);
+    std::fflush(stdout);
+  };
   RunOptions options;
   options.folder = arguments.folder;
   options.records = arguments.records;
   options.loader_threads = arguments.loader_threads;
   options.grow = !arguments.fixed_records;
   options.stop_after = arguments.stop_after;
-  options.on_step = [&](const StepReport& report) { progress.show(report); };
-  options.on_note = [&](const std::string& line) { progress.note(line); };
+  options.on_step = [&](const StepReport&) { bar.advance(); };
+  options.on_note = note;
   const auto trained = train(state, options, device);
   if (!trained) return failed(trained.error());
-  progress.note(fmt::format("{} steps done; checkpoint and log in {}", state.step,
-                            arguments.folder.string()));
+  note(fmt::format("{} steps done; checkpoint and log in {}", state.step,
+                   arguments.folder.string()));
   return 0;
 }
 

@@ -53,17 +53,6 @@ VelocityModel copy_of(const VelocityModelImpl& model, torch::Device device) {
   return copy;
 }
 
-void put_text(torch::serialize::OutputArchive& archive, const std::string& key,
-              const std::string& text) {
-  archive.write(key, c10::IValue(text));
-}
-
-std::string get_text(torch::serialize::InputArchive& archive, const std::string& key) {
-  c10::IValue value;
-  archive.read(key, value);
-  return value.toStringRef();
-}
-
 }  // namespace
 
 TrainingState start(const Recipe& recipe, torch::Device device) {
@@ -98,17 +87,8 @@ Result<void> save_checkpoint(const TrainingState& state, const std::filesystem::
     put_text(archive, "validation", state.validation);
     const auto& mean = state.norm.mean;
     archive.write("norm", torch::tensor({mean[0], mean[1], mean[2], state.norm.scale}));
-    const auto write_module = [&](const char* key, const VelocityModelImpl& module) {
-      torch::serialize::OutputArchive inside;
-      for (const auto& item : module.named_parameters()) {
-        std::string name = item.key();
-        for (char& letter : name) letter = letter == '.' ? '/' : letter;
-        inside.write(name, item.value().detach().to(torch::kCPU));
-      }
-      archive.write(key, inside);
-    };
-    write_module("model", *state.model);
-    if (state.average) write_module("average", *state.average);
+    write_module(archive, "model", *state.model);
+    if (state.average) write_module(archive, "average", *state.average);
     torch::serialize::OutputArchive optimizer;
     state.optimizer->save(optimizer);
     archive.write("optimizer", optimizer);
@@ -116,24 +96,15 @@ Result<void> save_checkpoint(const TrainingState& state, const std::filesystem::
 }
 
 Result<TrainingState> load_checkpoint(const std::filesystem::path& file, torch::Device device) {
-  if (!std::filesystem::is_regular_file(file)) {
-    return Error{ErrorCode::kIo,
-                 fmt::format("{}: expected a checkpoint; check the path", file.string())};
-  }
-  try {
-    torch::serialize::InputArchive archive;
-    archive.load_from(file.string(), device);
-    c10::IValue number;
-    archive.read("version", number);
-    if (number.toInt() != kCheckpointVersion) throw std::runtime_error("another version");
+  const auto read = [&](torch::serialize::InputArchive& archive) -> Result<TrainingState> {
+    if (get_whole(archive, "version") != kCheckpointVersion) {
+      throw std::runtime_error("another version");
+    }
     const auto recipe = parse_recipe(get_text(archive, "recipe"), file.string() + ": recipe");
     if (!recipe) return recipe.error();
-
     TrainingState state = start(*recipe, device);
-    archive.read("step", number);
-    state.step = number.toInt();
-    archive.read("shards", number);
-    state.shards = static_cast<std::uint32_t>(number.toInt());
+    state.step = get_whole(archive, "step");
+    state.shards = static_cast<std::uint32_t>(get_whole(archive, "shards"));
     state.command = get_text(archive, "command");
     state.data_sha256 = get_text(archive, "data_sha256");
     state.data_origin = get_text(archive, "data_origin");
@@ -144,31 +115,14 @@ Result<TrainingState> load_checkpoint(const std::filesystem::path& file, torch::
     norm = norm.to(torch::kCPU);
     const float* values = norm.data_ptr<float>();
     state.norm = {{values[0], values[1], values[2]}, values[3]};
-
-    const auto read_module = [&](const char* key, VelocityModelImpl& module) {
-      const torch::NoGradGuard no_gradients;
-      torch::serialize::InputArchive inside;
-      archive.read(key, inside);
-      for (auto& item : module.named_parameters()) {
-        std::string name = item.key();
-        for (char& letter : name) letter = letter == '.' ? '/' : letter;
-        Tensor saved;
-        inside.read(name, saved);
-        item.value().copy_(saved);
-      }
-    };
-    read_module("model", *state.model);
-    if (state.average) read_module("average", *state.average);
+    read_module(archive, "model", *state.model);
+    if (state.average) read_module(archive, "average", *state.average);
     torch::serialize::InputArchive optimizer;
     archive.read("optimizer", optimizer);
     state.optimizer->load(optimizer);
     return state;
-  } catch (const std::exception& thrown) {
-    return Error{ErrorCode::kBadInput,
-                 fmt::format("{}: expected a checkpoint of flowdlo-train, got \"{}\"; start again "
-                             "or give another file",
-                             file.string(), thrown.what())};
-  }
+  };
+  return read_archive<TrainingState>(file, device, "flowdlo-train", read);
 }
 
 Result<void> take_recipe(TrainingState& state, const Recipe& recipe) {

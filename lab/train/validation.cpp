@@ -6,8 +6,9 @@
 #include <map>
 
 #include "flow/gaussian_source.hpp"
-#include "geometry/quantile.hpp"
 #include "prior/prior.hpp"
+#include "survey/table.hpp"
+#include "survey/values.hpp"
 #include "train/batch.hpp"
 
 namespace flowdlo::train {
@@ -31,27 +32,25 @@ Tensor error_cm(const Tensor& nodes, const Tensor& truth, const Tensor& norm) {
 }
 
 GroupErrors summary(const std::string& group, const std::vector<Errors>& errors) {
+  survey::Values prior;
+  survey::Values model;
+  survey::Values worse;
   GroupErrors result;
-  result.group = group;
-  result.records = static_cast<int>(errors.size());
-  std::vector<double> prior;
-  std::vector<double> model;
   for (const Errors& one : errors) {
-    prior.push_back(one.prior_cm);
-    model.push_back(one.model_cm);
-    result.prior_cm += one.prior_cm;
-    result.model_cm += one.model_cm;
-    result.prior_over += one.prior_cm > kOver_cm ? 1 : 0;
-    result.model_over += one.model_cm > kOver_cm ? 1 : 0;
-    result.harmed += one.model_cm > one.prior_cm + kHarm_cm ? 1 : 0;
+    prior.add(one.prior_cm);
+    model.add(one.model_cm);
+    worse.add(one.model_cm > one.prior_cm + kHarm_cm ? 1 : 0);
     result.flips += one.flipped ? 1 : 0;
   }
-  for (double* sum : {&result.prior_cm, &result.model_cm, &result.prior_over, &result.model_over,
-                      &result.harmed}) {
-    *sum /= result.records;
-  }
-  result.prior_median_cm = geometry::median_of(prior);
-  result.model_median_cm = geometry::median_of(model);
+  result.group = group;
+  result.records = static_cast<int>(errors.size());
+  result.prior_cm = prior.mean();
+  result.model_cm = model.mean();
+  result.prior_median_cm = prior.median();
+  result.model_median_cm = model.median();
+  result.prior_over = prior.percent_over(kOver_cm) / 100;
+  result.model_over = model.percent_over(kOver_cm) / 100;
+  result.harmed = worse.mean();
   return result;
 }
 
@@ -138,19 +137,21 @@ std::vector<GroupErrors> validate_model(VelocityModelImpl& model, std::span<cons
 }
 
 std::string table_of(const std::vector<GroupErrors>& groups) {
-  std::string text =
-      "| group | records | prior cm | model cm | ratio | median prior | median model | prior > 2 "
-      "cm "
-      "| model > 2 cm | harmed | flips |\n|---|---|---|---|---|---|---|---|---|---|---|\n";
-  for (const GroupErrors& group : groups) {
-    text += fmt::format(
-        "| {} | {} | {:.3f} | {:.3f} | {:.3f} | {:.3f} | {:.3f} | {:.1f} % | {:.1f} % | {:.1f} % | "
-        "{} |\n",
-        group.group, group.records, group.prior_cm, group.model_cm, group.ratio(),
-        group.prior_median_cm, group.model_median_cm, 100 * group.prior_over,
-        100 * group.model_over, 100 * group.harmed, group.flips);
+  survey::Table table({"group", "records", "prior cm", "model cm", "ratio", "median prior",
+                       "median model", "prior > 2 cm", "model > 2 cm", "harmed", "flips"});
+  for (const GroupErrors& g : groups) {
+    std::vector<std::string> cells{g.group, std::to_string(g.records)};
+    for (const double value :
+         {g.prior_cm, g.model_cm, g.ratio(), g.prior_median_cm, g.model_median_cm}) {
+      cells.push_back(fmt::format("{:.3f}", value));
+    }
+    for (const double share : {g.prior_over, g.model_over, g.harmed}) {
+      cells.push_back(fmt::format("{:.1f} %", 100 * share));
+    }
+    cells.push_back(std::to_string(g.flips));
+    table.add(std::move(cells));
   }
-  return text;
+  return table.text();
 }
 
 }  // namespace flowdlo::train

@@ -1,4 +1,4 @@
-#include "baselines/mbest_path.hpp"
+#include "baselines/traced_path.hpp"
 
 #include <gtest/gtest.h>
 

@@ -6,7 +6,7 @@
 #include <stdexcept>
 
 #include "flowdlo/estimator.hpp"
-#include "one_rope/odd_mask.hpp"
+#include "hostile/hostile_mask.hpp"
 #include "one_rope/part_of_rope.hpp"
 #include "one_rope/two_ropes.hpp"
 #include "scene/scene.hpp"
@@ -86,10 +86,11 @@ TEST_P(Confidence, OfAFullMaskIsBelowThreeTenths) {
 
 TEST_P(Confidence, OfAMaskThatIsNoRopeIsBelowThreeTenths) {
   FrameFolder frame = table(160, 120);
-  const auto odd = lab::odd_masks(frame.width, frame.height);
-  for (std::size_t i = 0; i < odd.size(); i += 4) {
-    frame.mask = odd[i].mask;
-    EXPECT_LT(of(frame), kLow) << odd[i].name;
+  const auto odd = lab::ropeless_masks({frame.width, frame.height});
+  for (std::size_t i = 0; i < odd.size(); i += 2) {
+    const cv::Mat1b mask = lab::draw(odd[i]);
+    frame.mask.assign(mask.begin(), mask.end());
+    EXPECT_LT(of(frame), kLow) << odd[i].name();
   }
 }
 

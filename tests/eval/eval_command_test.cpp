@@ -32,7 +32,7 @@ test::Outcome run_eval(const fs::path& scratch, const fs::path& data_set) {
                                "--device", "cpu", "--draws", "1", "--steps", "1"});
 }
 
-TEST(EvalCommand, WritesTablesRowsAndPlots) {
+TEST(EvalCommand, WritesTablesAndRows) {
   const TemporaryFolder scratch;
   const fs::path data_set = scratch.path() / "scenes";
   fs::create_directory(data_set);
@@ -41,8 +41,7 @@ TEST(EvalCommand, WritesTablesRowsAndPlots) {
   const auto outcome = run_eval(scratch.path(), data_set);
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   const fs::path out = scratch.path() / "out";
-  for (const char* file :
-       {"tables.md", "rows.csv", "timings.csv", "error_bars.png", "error_curve.png"}) {
+  for (const char* file : {"tables.md", "rows.csv", "timings.csv"}) {
     EXPECT_TRUE(fs::exists(out / file)) << file;
   }
   EXPECT_THAT(outcome.out, StartsWith(test::read_text(out / "tables.md")));
@@ -125,7 +124,7 @@ TEST(EvalCommand, ChapterStandsInResultsFiguresAndReport) {
   }
   EXPECT_EQ(test::read_text(copy), results);
   EXPECT_THAT(test::read_text(out / "methods.csv"), HasSubstr("scenes,one,"));
-  EXPECT_TRUE(fs::exists(out / "figures" / "scenes_examples.png"));
+  EXPECT_TRUE(fs::exists(out / "figures" / "scenes_reliability.png"));
   EXPECT_GT(fs::file_size(out / "report.html"), 500000U);
 
   const fs::path merged = scratch.path() / "merged";

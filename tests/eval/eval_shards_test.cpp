@@ -46,7 +46,7 @@ class EvalShards : public testing::Test {
   }
 
   void expect_same_results(const std::string& one, const std::string& other) {
-    for (const char* file : {"tables.md", "rows.csv", "error_bars.png", "error_curve.png"}) {
+    for (const char* file : {"tables.md", "rows.csv", "methods.csv"}) {
       const auto bytes = read_text(path(one) / file);
       EXPECT_FALSE(bytes.empty()) << file;
       EXPECT_EQ(read_text(path(other) / file), bytes) << file;

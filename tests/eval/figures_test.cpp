@@ -6,9 +6,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <vector>
 
-#include "eval/example_sheet.hpp"
 #include "eval/scenes.hpp"
-#include "eval/space_view.hpp"
 #include "frame/temporary_folder.hpp"
 
 namespace flowdlo::eval {
@@ -28,8 +26,7 @@ TEST(Figures, EveryFigureOfTheChapterIsDrawn) {
                                   test::scene_without_baseline("b", "S-complicated")};
   const auto drawn = figures(trials);
   ASSERT_TRUE(drawn) << drawn.error().message;
-  EXPECT_THAT(names_of(*drawn), ElementsAre("set_paired_bars", "set_examples", "set_steps",
-                                            "set_time_sweep", "set_reliability"));
+  EXPECT_THAT(names_of(*drawn), ElementsAre("set_paired_bars", "set_steps", "set_reliability"));
   for (const Figure& figure : *drawn) {
     EXPECT_GT(cv::imdecode(figure.png, cv::IMREAD_COLOR).cols, 400) << figure.name;
   }
@@ -49,37 +46,6 @@ TEST(Figures, OfNothingAreNone) {
   const auto drawn = figures(std::vector<Trial>());
   ASSERT_TRUE(drawn);
   EXPECT_THAT(*drawn, IsEmpty());
-}
-
-TEST(FixedExamples, DoNotDependOnErrors) {
-  std::vector<Trial> trials;
-  for (const char* name : {"a", "b", "c", "d", "e", "f"}) {
-    trials.push_back(test::scene(name, "intersection"));
-  }
-  const auto before = fixed_examples(data_sets_of(trials)[0]);
-  for (Trial& trial : trials) trial.methods["estimate"].index_m = trial.name == "a" ? 0 : 1;
-  const auto after = fixed_examples(data_sets_of(trials)[0]);
-  EXPECT_EQ(before, after);
-  EXPECT_EQ(before.size(), 2U);
-}
-
-TEST(SpaceView, SubjectFillsThePanelAndStaysInIt) {
-  const Centerline nodes = test::wave(0.2);
-  const SpaceView view(nodes, {300, 200});
-  int left = 300;
-  int right = 0;
-  for (const Point3& node : nodes) {
-    const cv::Point at = view.at(node);
-    EXPECT_TRUE(cv::Rect(0, 0, 300, 200).contains(at));
-    left = std::min(left, at.x);
-    right = std::max(right, at.x);
-  }
-  EXPECT_NEAR(right - left, 240, 3);
-}
-
-TEST(SpaceView, FarPointsStayPixels) {
-  const SpaceView view(test::wave(0), {300, 200});
-  EXPECT_LE(std::abs(view.at({1e30F, -1e30F, 5}).x), 40000);
 }
 
 }  // namespace

@@ -5,7 +5,6 @@
 
 #include <vector>
 
-#include "eval/markdown_table.hpp"
 #include "eval/scenes.hpp"
 
 namespace flowdlo::eval {
@@ -31,13 +30,6 @@ TEST(MethodRows, EveryRowHasTheHeadersFields) {
               14);
     at = end + 1;
   }
-}
-
-TEST(MarkdownTable, RowsHaveTheHeadersWidth) {
-  MarkdownTable table({"a", "b"});
-  table.add({"1"});
-  table.add({"1", "2", "3"});
-  EXPECT_EQ(table.text(), "| a | b |\n|---|---|\n| 1 | |\n| 1 | 2 |\n\n");
 }
 
 }  // namespace

@@ -1,0 +1,286 @@
+#include "reports/ropes_outcome.hpp"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <numeric>
+#include <utility>
+
+#include "estimator/conditions.hpp"
+#include "estimator/parted.hpp"
+#include "estimator/rope_crossings.hpp"
+#include "estimator/rope_views.hpp"
+#include "eval/metrics.hpp"
+#include "field/axes.hpp"
+#include "field/strand_field.hpp"
+#include "geometry/polyline.hpp"
+#include "scene/setting.hpp"
+
+namespace flowdlo::lab {
+namespace {
+
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+Vector3d vector_of(const Point3& p) { return {p.x, p.y, p.z}; }
+
+// What the strand field shows, and how long that took.
+std::optional<field::Axes> seen_axes(const Frame& frame, const RopesRun& run, float rope_width_px,
+                                     RopesOutcome& outcome) {
+  const auto begin = std::chrono::steady_clock::now();
+  const auto seen = field::see(frame, rope_width_px, *run.field, true);
+  if (seen) outcome.axes = field::axes(*seen);
+  const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - begin;
+  outcome.field_ms = took.count();
+  return outcome.axes;
+}
+
+// The order in which the ropes will be told.
+std::vector<std::size_t> longest_first(const std::vector<Estimate>& ropes) {
+  std::vector<std::size_t> order(ropes.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return geometry::length(ropes[a].nodes) > geometry::length(ropes[b].nodes);
+  });
+  return order;
+}
+
+// Paths and refined priors, as the estimator makes them.
+Result<Ropes> by_priors(const Frame& frame, const RopesRun& run, RopesOutcome& outcome) {
+  const estimator::SeeAxes see = [&](float rope_width_px) {
+    return seen_axes(frame, run, rope_width_px, outcome);
+  };
+  const auto parted = estimator::part_ropes(frame, run.ropes, run.field != nullptr ? see : nullptr);
+  if (!parted) return parted.error();
+  Ropes result;
+  for (std::size_t i = 0; i < parted->paths.ropes.size(); ++i) {
+    const estimator::RopeView view(*parted, i, frame);
+    Timings timings;
+    const path::Traversals traced = view.traversals();
+    const auto conditions = estimator::gather(view.frame(), {}, timings, &traced);
+    if (!conditions) return conditions.error();
+    Estimate rope;
+    rope.nodes = conditions->hypotheses.front().prior.nodes;
+    rope.support = conditions->hypotheses.front().prior.support;
+    rope.closed = parted->paths.ropes[i].closed;
+    rope.confidence = estimator::told_apart(parted->paths.lead[i], parted->witness[i]);
+    result.ropes.push_back(std::move(rope));
+  }
+  for (const std::size_t i : longest_first(result.ropes)) {
+    outcome.lead.push_back(parted->paths.lead[i]);
+    outcome.witness.push_back(parted->witness[i]);
+  }
+  result.instances = estimator::sort_longest_first(parted->instances, result.ropes);
+  result.crossings = estimator::rope_crossings(result.ropes, frame);
+  return result;
+}
+
+std::vector<Vector2d> line_of(const Estimate& rope, const Intrinsics& camera) {
+  std::vector<Vector2d> line;
+  for (std::size_t i = 1; i < rope.nodes.size(); ++i) {
+    const Vector2d from = project(camera, vector_of(rope.nodes[i - 1]));
+    const Vector2d to = project(camera, vector_of(rope.nodes[i]));
+    const int pieces = std::clamp(static_cast<int>((to - from).norm() / 2), 1, 200);
+    for (int k = 0; k < pieces; ++k) line.push_back(from + (to - from) * k / pieces);
+  }
+  line.push_back(project(camera, vector_of(rope.nodes.back())));
+  return line;
+}
+
+// A place of a rope in the image, and how near to it a line has to be.
+struct Mark {
+  Vector2d point_px{0, 0};
+  double tolerance_px = 0;
+};
+
+// True when path and marks can be walked together from end to end, never back.
+bool visits_in_order(const std::vector<Vector2d>& path, const std::vector<Mark>& marks) {
+  std::vector<char> reached(marks.size(), 0);
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    char diagonal = 0;
+    for (std::size_t j = 0; j < marks.size(); ++j) {
+      const char above = i > 0 ? reached[j] : 0;
+      const char left = j > 0 ? reached[j - 1] : 0;
+      const bool from = (i == 0 && j == 0) || above != 0 || left != 0 || diagonal != 0;
+      const bool near = (path[i] - marks[j].point_px).norm() <= marks[j].tolerance_px;
+      reached[j] = from && near ? 1 : 0;
+      diagonal = above;
+    }
+  }
+  return reached.back() != 0;
+}
+
+std::vector<Mark> marks_of(const SeenRope& rope, const Intrinsics& camera) {
+  std::vector<Mark> marks;
+  for (const Vector3d& p : respaced(rope.curve, 0.7 * rope.radius_m)) {
+    marks.push_back({project(camera, p), 2 * rope.radius_m * camera.fx / p.z() + 3});
+  }
+  return marks;
+}
+
+// A ring is visited from wherever the line begins.
+bool visits(std::vector<Vector2d> line, std::vector<Mark> marks, bool closed) {
+  if (closed) {
+    const auto nearest =
+        std::min_element(marks.begin(), marks.end(), [&](const Mark& a, const Mark& b) {
+          return (a.point_px - line.front()).norm() < (b.point_px - line.front()).norm();
+        });
+    std::rotate(marks.begin(), nearest, marks.end());
+  }
+  if (visits_in_order(line, marks)) return true;
+  std::reverse(line.begin(), line.end());
+  if (closed) std::rotate(marks.begin(), marks.begin() + 1, marks.end());
+  return visits_in_order(line, marks);
+}
+
+Centerline ring_nodes(const Curve3& curve, double from) {
+  double length = 0;
+  for (std::size_t i = 1; i < curve.size(); ++i) length += (curve[i] - curve[i - 1]).norm();
+  Curve3 turned = respaced(curve, length / 1024);
+  turned.pop_back();
+  const auto first = static_cast<std::ptrdiff_t>(from * static_cast<double>(turned.size()));
+  std::rotate(turned.begin(), turned.begin() + first, turned.end());
+  turned.push_back(turned.front());
+  return nodes_of(turned);
+}
+
+// Eq. (4.1) in the better direction; of a ring from the best beginning.
+double index_m(const Estimate& found, const SeenRope& rope) {
+  if (!rope.closed) return eval::score(found.nodes, rope.truth).either_index_m;
+  Curve3 line;
+  for (const Point3& p : found.nodes) line.push_back(vector_of(p));
+  line.push_back(line.front());
+  const Centerline nodes = ring_nodes(line, 0);
+  double least = std::numeric_limits<double>::max();
+  for (int k = 0; k < 256; ++k) {
+    const Centerline truth = ring_nodes(rope.curve, k / 256.0);
+    least = std::min(least, eval::score(nodes, truth).either_index_m);
+  }
+  return least;
+}
+
+// Where two true ropes cross in the image, and which is nearer there.
+struct TrueCrossing {
+  std::size_t over = 0;
+  std::size_t under = 0;
+  Vector2d at_px{0, 0};
+};
+
+std::vector<TrueCrossing> true_crossings(const RopesScene& scene) {
+  std::vector<TrueCrossing> result;
+  const auto side = [](const Vector2d& p, const Vector2d& q) {
+    return p.x() * q.y() - p.y() * q.x();
+  };
+  for (std::size_t a = 0; a < scene.ropes.size(); ++a) {
+    for (std::size_t b = a + 1; b < scene.ropes.size(); ++b) {
+      const Curve3& one = scene.ropes[a].curve;
+      const Curve3& two = scene.ropes[b].curve;
+      for (std::size_t i = 1; i < one.size(); ++i) {
+        const Vector2d p = project(scene.image.camera, one[i - 1]);
+        const Vector2d d = project(scene.image.camera, one[i]) - p;
+        for (std::size_t j = 1; j < two.size(); ++j) {
+          const Vector2d q = project(scene.image.camera, two[j - 1]);
+          if ((q - p).squaredNorm() > 400) continue;
+          const Vector2d e = project(scene.image.camera, two[j]) - q;
+          const double cross = side(d, e);
+          if (std::abs(cross) < 1e-12) continue;
+          const double t = side(q - p, e) / cross;
+          const double s = side(q - p, d) / cross;
+          if (t < 0 || t >= 1 || s < 0 || s >= 1) continue;
+          const bool first = one[i].z() < two[j].z();
+          result.push_back({first ? a : b, first ? b : a, p + t * d});
+        }
+      }
+    }
+  }
+  return result;
+}
+
+Vector2d place_on(const Estimate& rope, double along_m, const Intrinsics& camera) {
+  double walked = 0;
+  const std::size_t count = rope.nodes.size();
+  for (std::size_t i = 1; i <= count; ++i) {
+    const Vector3d from = vector_of(rope.nodes[i - 1]);
+    const Vector3d to = vector_of(rope.nodes[i % count]);
+    const double step = (to - from).norm();
+    if (walked + step >= along_m) {
+      return project(camera, from + (to - from) * ((along_m - walked) / std::max(1e-9, step)));
+    }
+    walked += step;
+  }
+  return project(camera, vector_of(rope.nodes.back()));
+}
+
+// `of` [true ropes] which of the found each is; -1: none.
+void compare_crossings(const RopesScene& scene, const Ropes& found, const std::vector<int>& of,
+                       RopesOutcome& outcome) {
+  for (const TrueCrossing& truth : true_crossings(scene)) {
+    const int over = of[truth.over];
+    const int under = of[truth.under];
+    if (over < 0 || under < 0) continue;
+    ++outcome.crossings;
+    const Vector3d& near = scene.ropes[truth.over].curve.front();
+    const double reach =
+        4 * scene.ropes[truth.over].radius_m * 2 * scene.image.camera.fx / near.z() + 4;
+    for (const RopeCrossing& told : found.crossings) {
+      const bool same =
+          (told.over == over && told.under == under) || (told.over == under && told.under == over);
+      if (!same) continue;
+      const Vector2d at = place_on(found.ropes[static_cast<std::size_t>(told.over)],
+                                   static_cast<double>(told.over_at_m), scene.image.camera);
+      if ((at - truth.at_px).norm() > reach) continue;
+      ++outcome.crossings_found;
+      outcome.crossings_right += told.over == over ? 1 : 0;
+      break;
+    }
+  }
+}
+
+}  // namespace
+
+RopesOutcome outcome_of(const RopesScene& scene, const RopesRun& run) {
+  RopesOutcome outcome;
+  const Frame frame = scene.frame(run.labels);
+  const auto start = std::chrono::steady_clock::now();
+  auto answer =
+      run.model != nullptr ? run.model->estimate_ropes(frame) : by_priors(frame, run, outcome);
+  const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - start;
+  outcome.total_ms = took.count();
+  if (!answer) {
+    outcome.error = answer.error().message;
+    return outcome;
+  }
+  outcome.found = static_cast<int>(answer->ropes.size());
+  outcome.parting_ms = answer->parting_ms;
+  outcome.rope_right.assign(answer->ropes.size(), false);
+  std::vector<std::vector<Vector2d>> lines;
+  for (const Estimate& rope : answer->ropes) {
+    lines.push_back(line_of(rope, scene.image.camera));
+    outcome.confidence.push_back(static_cast<double>(rope.confidence));
+  }
+  std::vector<int> of(scene.ropes.size(), -1);
+  for (std::size_t r = 0; r < scene.ropes.size(); ++r) {
+    const SeenRope& rope = scene.ropes[r];
+    const auto marks = marks_of(rope, scene.image.camera);
+    for (std::size_t f = 0; f < lines.size() && of[r] < 0; ++f) {
+      if (outcome.rope_right[f] || answer->ropes[f].closed != rope.closed) continue;
+      if (visits(lines[f], marks, rope.closed)) of[r] = static_cast<int>(f);
+    }
+    if (of[r] < 0) continue;
+    const auto found = static_cast<std::size_t>(of[r]);
+    outcome.rope_right[found] = true;
+    ++outcome.right;
+    outcome.index_cm.push_back(100 * index_m(answer->ropes[found], rope));
+  }
+  const auto wanted = static_cast<int>(scene.ropes.size());
+  outcome.all_right = outcome.found == wanted && outcome.right == wanted;
+  compare_crossings(scene, *answer, of, outcome);
+  outcome.instances = std::move(answer->instances);
+  outcome.ropes = std::move(answer->ropes);
+  return outcome;
+}
+
+}  // namespace flowdlo::lab

@@ -1,0 +1,395 @@
+// flowdlo-lab ropes-report: drawn or rendered scenes of several ropes, told apart and lifted,
+// against their truth: one Markdown table by kind and one by number; --overlays draws the scenes
+// that are not right.
+#include <fmt/format.h>
+
+#include <CLI/App.hpp>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <map>
+#include <memory>
+#include <opencv2/imgproc.hpp>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "command/report_commands.hpp"
+#include "command_line.hpp"
+#include "mat/mat_file.hpp"
+#include "reports/rendered_ropes.hpp"
+#include "reports/ropes_outcome.hpp"
+#include "scene/setting.hpp"
+#include "strand/scene_range.hpp"
+#include "survey/choice_fit.hpp"
+#include "survey/table.hpp"
+#include "survey/values.hpp"
+
+namespace flowdlo::lab {
+namespace {
+
+using estimator::Witness;
+
+struct Options {
+  int scenes = 10;
+  std::uint64_t first = 0;
+  int least = 2;
+  int most = 5;
+  std::string kind;
+  std::string rendered = "training";
+  int rendered_scenes = 0;
+  std::uint64_t rendered_first = 0;
+  bool labels = false;
+  bool counted = false;
+  std::string weights;
+  std::string field;
+  std::string overlays;
+  bool all = false;
+};
+
+// A rope that was found: how clearly it was told apart, and whether it is right.
+struct Told {
+  double lead = 0;
+  bool right = false;
+};
+
+// Most likely a and b of 1 / (1 + exp(-(a + b lead))).
+Eigen::VectorXd fitted(const std::vector<Told>& told) {
+  constexpr double kRidge = 0.1;
+  std::vector<survey::Choice> choices;
+  for (const Told& one : told) {
+    Eigen::MatrixXd rows(2, 2);
+    rows << 1, one.lead, 0, 0;
+    choices.push_back({rows, one.right ? 0 : 1});
+  }
+  return survey::fit(choices, 2, kRidge);
+}
+
+struct Tally {
+  int scenes = 0;
+  int all_right = 0;
+  int count_right = 0;
+  int ropes = 0;
+  int right = 0;
+  int crossings = 0;
+  int found = 0;
+  int order_right = 0;
+  int trusted = 0;  // confidence of a half at least, of the right
+  int doubted = 0;  // below, of the wrong
+  int wrong = 0;
+  survey::Values index_cm, total_ms, field_ms;
+  std::vector<std::pair<double, bool>> confidences;  // of each rope found, and whether it is right
+  std::map<Witness, std::vector<Told>> told;
+
+  void add(const RopesScene& scene, const RopesOutcome& outcome) {
+    ++scenes;
+    all_right += outcome.all_right ? 1 : 0;
+    count_right += outcome.found == static_cast<int>(scene.ropes.size()) ? 1 : 0;
+    ropes += static_cast<int>(scene.ropes.size());
+    right += outcome.right;
+    crossings += outcome.crossings;
+    found += outcome.crossings_found;
+    order_right += outcome.crossings_right;
+    for (std::size_t i = 0; i < outcome.confidence.size(); ++i) {
+      const bool sure = outcome.confidence[i] >= 0.5;
+      confidences.emplace_back(outcome.confidence[i], outcome.rope_right[i]);
+      if (i < outcome.lead.size()) {
+        const auto lead = static_cast<double>(outcome.lead[i]);
+        told[outcome.witness[i]].push_back({lead, outcome.rope_right[i]});
+      }
+      if (outcome.rope_right[i]) {
+        trusted += sure ? 1 : 0;
+      } else {
+        ++wrong;
+        doubted += sure ? 0 : 1;
+      }
+    }
+    index_cm.add(survey::Values(outcome.index_cm));
+    total_ms.add(outcome.total_ms);
+    if (outcome.axes) field_ms.add(outcome.field_ms);
+  }
+
+  // How often ropes of a confidence are right.
+  void print_calibration() const {
+    constexpr std::array kBounds{0.0, 0.25, 0.5, 0.75, 0.9, 0.97, 1.0};
+    survey::Table bins({"confidence", "ropes", "mean confidence", "right"});
+    for (std::size_t b = 0; b + 1 < kBounds.size(); ++b) {
+      survey::Values said;
+      survey::Values correct;
+      for (const auto& [confidence, good] : confidences) {
+        const bool last = b + 2 == kBounds.size();
+        if (confidence < kBounds[b] || (confidence >= kBounds[b + 1] && !last)) continue;
+        said.add(confidence);
+        correct.add(good ? 100 : 0);
+      }
+      bins.add({fmt::format("{:.2f} to {:.2f}", kBounds[b], kBounds[b + 1]),
+                std::to_string(said.count()), fmt::format("{:.3f}", said.mean()),
+                fmt::format("{:.1f} %", correct.mean())});
+    }
+    survey::Table readings({"second reading", "ropes", "right", "odds: a + b lead"});
+    for (const auto& [witness, ropes] : told) {
+      const auto correct =
+          std::count_if(ropes.begin(), ropes.end(), [](const Told& one) { return one.right; });
+      const auto odds = fitted(ropes);
+      readings.add({witness == Witness::kNone     ? "none"
+                    : witness == Witness::kAgrees ? "agrees"
+                                                  : "differs",
+                    std::to_string(ropes.size()),
+                    fmt::format("{:.1f} %", survey::percent(static_cast<double>(correct),
+                                                            static_cast<double>(ropes.size()))),
+                    fmt::format("{:.2f} {:+.2f}", odds[0], odds[1])});
+    }
+    fmt::print("{}{}", bins.text(), readings.text());
+    if (field_ms.count() == 0) return;
+    fmt::print("ms of the strand field: median {:.0f}, 95 % {:.0f}\n", field_ms.median(),
+               field_ms.quantile(0.95));
+  }
+
+  void add_row(const std::string& name, survey::Table& table) const {
+    table.add({name, std::to_string(scenes), std::to_string(count_right),
+               fmt::format("{:.1f} %", survey::percent(all_right, scenes)),
+               fmt::format("{} of {}", right, ropes),
+               fmt::format("{:.3f} / {:.3f} / {:.3f}", index_cm.mean(), index_cm.median(),
+                           index_cm.quantile(0.95)),
+               fmt::format("{} of {} of {}", order_right, found, crossings),
+               fmt::format("{:.1f} %", survey::percent(trusted, right)),
+               fmt::format("{} of {}", doubted, wrong), fmt::format("{:.0f}", total_ms.median())});
+  }
+};
+
+bool draw(const std::string& file, const RopesScene& scene, const RopesOutcome& outcome) {
+  static const std::array<cv::Scalar, 9> kColors{
+      cv::Scalar(196, 212, 32), {0, 140, 255},  {255, 110, 60},  {60, 220, 60},  {220, 80, 220},
+      {40, 220, 240},           {250, 230, 90}, {120, 120, 255}, {160, 160, 160}};
+  const auto& image = scene.image;
+  cv::Mat picture =
+      cv::Mat(image.height, image.width, CV_8UC3, const_cast<std::uint8_t*>(image.color_bgr.data()))
+          .clone();
+  picture *= 0.5;
+  const cv::Mat mask(image.height, image.width, CV_8U,
+                     const_cast<std::uint8_t*>(image.mask.data()));
+  picture.setTo(cv::Scalar(90, 90, 90), mask > 127);
+  for (int v = 0; v < image.height && !outcome.instances.empty(); ++v) {
+    for (int u = 0; u < image.width; ++u) {
+      const auto label = outcome.instances[static_cast<std::size_t>(v) * image.width + u];
+      if (label == 0) continue;
+      const auto& color = kColors[(label - 1U) % kColors.size()];
+      for (int c = 0; c < 3; ++c) {
+        picture.at<cv::Vec3b>(v, u)[c] = static_cast<std::uint8_t>(30 + 0.4 * color[c]);
+      }
+    }
+  }
+  for (std::size_t l = 0; outcome.axes && l < outcome.axes->lines.size(); ++l) {
+    std::vector<cv::Point> points;
+    for (const auto& p : outcome.axes->lines[l].points_px) {
+      points.emplace_back(static_cast<int>(p.x() * 16), static_cast<int>(p.y() * 16));
+    }
+    for (const cv::Point& end : {points.front(), points.back()}) {
+      cv::circle(picture, end, 2 * 16, {255, 255, 255}, -1, cv::LINE_AA, 4);
+    }
+    cv::polylines(picture, points, outcome.axes->lines[l].closed, {255, 255, 255}, 1, cv::LINE_AA,
+                  4);
+  }
+  for (std::size_t i = 0; i < outcome.ropes.size(); ++i) {
+    std::vector<cv::Point> points;
+    for (const auto& p : outcome.ropes[i].nodes) {
+      const auto q = project(image.camera, {p.x, p.y, p.z});
+      points.emplace_back(static_cast<int>(q.x() * 16), static_cast<int>(q.y() * 16));
+    }
+    const auto& color = kColors[i % kColors.size()];
+    cv::polylines(picture, points, outcome.ropes[i].closed, color, 2, cv::LINE_AA, 4);
+    cv::circle(picture, points.front(), 5 * 16, color, 2, cv::LINE_AA, 4);
+    cv::circle(picture, points.back(), 5 * 16, color, 2, cv::LINE_AA, 4);
+  }
+  return mat::save_png(file, picture).has_value();
+}
+
+// What tells ropes apart and estimates them, for as many ropes as are wanted.
+class Answers {
+ public:
+  explicit Answers(const Options& options) : options_(options) {}
+
+  Result<RopesOutcome> of(const RopesScene& scene, int wanted) {
+    if (!options_.weights.empty() && (!model_ || wanted != made_for_)) {
+      Config config;
+      config.weights = options_.weights;
+      config.device = "cpu";
+      config.ropes = wanted;
+      config.field_weights = options_.field;
+      if (options_.field.empty()) config.field = FieldChoice::kOff;
+      auto made = Estimator::create(config);
+      if (!made) return made.error();
+      model_ = *std::move(made);
+      made_for_ = wanted;
+    }
+    if (!options_.field.empty() && options_.weights.empty() && !network_) {
+      auto opened = strand::one_network(options_.field);
+      if (!opened) return opened.error();
+      network_ = *std::move(opened);
+    }
+    return outcome_of(scene, {wanted, options_.labels, model_ ? &*model_ : nullptr,
+                              network_ ? &*network_ : nullptr});
+  }
+
+ private:
+  const Options& options_;
+  std::optional<Estimator> model_;
+  int made_for_ = 0;
+  std::optional<field::Network> network_;
+};
+
+// All scenes of a run and what came of them.
+class Report {
+ public:
+  explicit Report(const Options& options) : options_(options), answers_(options) {}
+
+  // `name` also names the picture.
+  Result<void> add(const RopesScene& scene, const std::string& kind, const std::string& name) {
+    const auto ropes = static_cast<int>(scene.ropes.size());
+    const auto outcome = answers_.of(scene, options_.counted ? ropes : 0);
+    if (!outcome) return outcome.error();
+    for (Tally* tally : {&by_number_[ropes], &by_kind_[kind], &total_}) tally->add(scene, *outcome);
+    if (!outcome->all_right) {
+      fmt::print(stderr, "  {}: {} of {} ropes right, {} found {}\n", name, outcome->right, ropes,
+                 outcome->found, outcome->error);
+    }
+    if (options_.overlays.empty() || (outcome->all_right && !options_.all)) return {};
+    const std::string file = options_.overlays + "/" + name + ".png";
+    if (draw(file, scene, *outcome)) return {};
+    return Error{ErrorCode::kIo, file + ": cannot be written; name an existing folder"};
+  }
+
+  void print() const {
+    survey::Table table({"scenes of", "scenes", "right number", "wholly right", "ropes right",
+                         "index error", "crossings", "confidence >= 0.5, of the right",
+                         "< 0.5, of the wrong", "ms"});
+    for (const auto& [kind, tally] : by_kind_) tally.add_row(kind, table);
+    for (const auto& [ropes, tally] : by_number_) {
+      tally.add_row(std::to_string(ropes) + " ropes", table);
+    }
+    total_.add_row("all", table);
+    fmt::print(
+        "index error of the right ropes in cm: mean / median / 95 %; crossings of right ropes: "
+        "right one above, told of, true ones\n{}",
+        table.text());
+    total_.print_calibration();
+  }
+
+ private:
+  const Options& options_;
+  Answers answers_;
+  std::map<int, Tally> by_number_;
+  std::map<std::string, Tally> by_kind_;
+  Tally total_;
+};
+
+Result<void> add_drawn(const Options& options, Report& report) {
+  for (int k = 0; k < kRopesKinds; ++k) {
+    const auto kind = static_cast<RopesKind>(k);
+    const std::string name(name_of(kind));
+    if (!options.kind.empty() && name != options.kind) continue;
+    for (int ropes = options.least; ropes <= options.most; ++ropes) {
+      for (int i = 0; i < options.scenes; ++i) {
+        const std::uint64_t seed = options.first + static_cast<std::uint64_t>(i);
+        const auto added =
+            report.add(make_ropes(kind, ropes, seed), name,
+                       name + "_" + std::to_string(ropes) + "_" + std::to_string(seed));
+        if (!added) return added;
+      }
+    }
+  }
+  return {};
+}
+
+Result<void> add_rendered(const Options& options, Report& report) {
+  int passed_over = 0;
+  for (int i = 0; i < options.rendered_scenes; ++i) {
+    const std::uint64_t index = options.rendered_first + static_cast<std::uint64_t>(i);
+    const auto made = rendered_ropes(*synth::part_of(options.rendered), index);
+    if (!made) return made.error();
+    if (!*made) {
+      ++passed_over;
+      continue;
+    }
+    const auto& [scenario, scene] = **made;
+    const auto ropes = static_cast<int>(scene.ropes.size());
+    if (ropes < options.least || ropes > options.most) continue;
+    if (!options.kind.empty() && scenario != options.kind) continue;
+    const auto added = report.add(scene, scenario, scenario + "_" + std::to_string(index));
+    if (!added) return added;
+  }
+  if (options.rendered_scenes == 0) return {};
+  fmt::print(stderr, "passed over, since a rope leaves the image and comes back: {}\n",
+             passed_over);
+  return {};
+}
+
+int run(const Options& options) {
+  Report report(options);
+  auto done = add_drawn(options, report);
+  if (done) done = add_rendered(options, report);
+  if (!done) {
+    fmt::print(stderr, "{}\n", done.error().message);
+    return 2;
+  }
+  report.print();
+  return 0;
+}
+
+}  // namespace
+
+void add_ropes_report(CLI::App& program, support::ExitCode& exit_code) {
+  auto options = std::make_shared<Options>();
+  auto& app = *support::add_command(
+      program, "ropes-report", "Several ropes in one frame, on drawn scenes, against their truth");
+  app.add_option("--scenes", options->scenes, "Drawn ones, of each kind and number")
+      ->capture_default_str()
+      ->check(CLI::Range(0, 1000000));
+  app.add_option("--first", options->first, "Seed of the first drawn scene of each")
+      ->capture_default_str();
+  app.add_option("--least", options->least, "Fewest ropes of a scene")
+      ->capture_default_str()
+      ->check(CLI::Range(2, 9));
+  app.add_option("--most", options->most, "Most ropes of a scene")
+      ->capture_default_str()
+      ->check(CLI::Range(2, 9));
+  app.add_option("--kind", options->kind, "Of this kind, or rendered scenario, only")
+      ->check(CLI::Validator(
+          [](const std::string& name) {
+            const auto rendered = synth::scenarios(synth::Split::kSeveral);
+            const bool known = ropes_kind_of(name) ||
+                               std::find(rendered.begin(), rendered.end(), name) != rendered.end();
+            return known ? std::string() : "no kind of scene: " + name;
+          },
+          "KIND"));
+  app.add_option("--rendered", options->rendered,
+                 "Part of flowdlo synth's several split that rendered scenes come from")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"training", "validation"}))
+      ->type_name("PART");
+  app.add_option("--rendered-scenes", options->rendered_scenes, "How many of them")
+      ->capture_default_str()
+      ->check(CLI::Range(0, 1000000));
+  app.add_option("--rendered-first", options->rendered_first, "Index of the first of them")
+      ->capture_default_str();
+  app.add_flag("--labels", options->labels, "Frame::instances are given");
+  app.add_flag("--counted", options->counted, "The number of ropes is given");
+  app.add_option("--weights", options->weights,
+                 "The whole estimator with this model [priors alone]")
+      ->check(CLI::ExistingFile)
+      ->type_name("FILE");
+  app.add_option("--field", options->field,
+                 "Tell them apart by this strand field as well [the mask alone]")
+      ->check(CLI::ExistingFile)
+      ->type_name("FILE");
+  app.add_option("--overlays", options->overlays, "Draw the scenes that are not right into DIR")
+      ->check(CLI::ExistingDirectory)
+      ->type_name("DIR");
+  app.add_flag("--all", options->all, "Draw those that are right as well");
+  support::set_action(app, exit_code, [options] { return run(*options); });
+}
+
+}  // namespace flowdlo::lab
