@@ -5,13 +5,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 #include "eval/interval.hpp"
 #include "eval/metrics.hpp"
 #include "flowdlo/estimator.hpp"
 #include "flowdlo/frame_folder.hpp"
-#include "geometry/quantile.hpp"
+#include "survey/values.hpp"
 
 namespace flowdlo::eval {
 namespace {
@@ -79,15 +78,6 @@ void keep_common(std::vector<Setting>& settings) {
   }
 }
 
-double mean(const std::vector<double>& values) {
-  const double sum = std::accumulate(values.begin(), values.end(), 0.0);
-  return values.empty() ? 0 : sum / static_cast<double>(values.size());
-}
-
-double median(std::vector<double> values) {
-  return values.empty() ? 0 : geometry::median_of(values);
-}
-
 }  // namespace
 
 std::size_t settings_of(std::span<const int> steps, std::span<const int> draws) {
@@ -139,10 +129,11 @@ std::string sweep_markdown(std::span<const Setting> settings) {
     out += fmt::format("| {} | {} |", setting.steps, setting.draws);
     for (const auto values : {&Setting::model_m, &Setting::estimate_m}) {
       const Interval ratio = ratio_interval(setting.*values, full.*values);
-      out += fmt::format(" {:.3f} ({:.3f} [{:.3f}, {:.3f}]) |", kCm * mean(setting.*values),
-                         ratio.value, ratio.low, ratio.high);
+      out += fmt::format(" {:.3f} ({:.3f} [{:.3f}, {:.3f}]) |",
+                         kCm * survey::Values(setting.*values).mean(), ratio.value, ratio.low,
+                         ratio.high);
     }
-    out += fmt::format(" {:.1f} |\n", median(setting.model_ms));
+    out += fmt::format(" {:.1f} |\n", survey::Values(setting.model_ms).median());
   }
   const Setting& best = settings[cheapest(settings)];
   return out + fmt::format(

@@ -23,6 +23,7 @@
 #include "progress_bar.hpp"
 #include "reference/program.hpp"
 #include "refine/network.hpp"
+#include "survey/failed.hpp"
 #include "survey/in_parallel.hpp"
 #include "weights/field_weights.hpp"
 #include "weights/weights.hpp"
@@ -33,6 +34,7 @@ namespace lab = flowdlo::lab;
 namespace synth = flowdlo::synth;
 using flowdlo::Error;
 using flowdlo::Result;
+using flowdlo::survey::failed;
 using Samples = std::vector<lab::GateSample>;
 
 constexpr std::uint64_t kFirstUntrained = 1000000;  // training takes its scenes from the front
@@ -237,11 +239,6 @@ Result<Samples> clean_without_model(const Options& options) {
                                 .part = options.part},
                      .scenes = options.more / kCleanShare,
                      .file = options.cache.empty() ? "" : options.cache + "_thesis.jsonl"});
-}
-
-int failed(const Error& error) {
-  fmt::print(stderr, "{}\n", error.message);
-  return 1;
 }
 
 /// Those of frames that a strand field was asked about: what it says of others is not weighed.

@@ -7,6 +7,7 @@
 #include <unordered_map>
 
 #include "field/channel.hpp"
+#include "geometry/quantile.hpp"
 #include "mat/mat_image.hpp"
 #include "path/thinning.hpp"
 #include "strand/targets.hpp"
@@ -113,9 +114,7 @@ bool same_direction(float a, float b) {
 float middle_width(const std::vector<Place>& places) {
   std::vector<float> widths;
   for (const Place& place : places) widths.push_back(place.width);
-  const auto middle = widths.begin() + static_cast<std::ptrdiff_t>(widths.size() / 2);
-  std::nth_element(widths.begin(), middle, widths.end());
-  return *middle;
+  return geometry::median_of(widths);
 }
 
 void measure_tips(const std::vector<Strand>& strands, const std::vector<Eigen::Vector2f>& tips,

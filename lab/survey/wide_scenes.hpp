@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "flowdlo/estimator.hpp"
+#include "survey/failed.hpp"
 #include "survey/in_parallel.hpp"
 #include "synth/synthetic_frame.hpp"
 
@@ -41,12 +42,6 @@ inline void add_options(CLI::App& app, WideScenes& scenes) {
   app.add_option("--threads", scenes.threads, "Scenes at a time; 0: one a core")
       ->check(CLI::Range(0, 1024))
       ->capture_default_str();
-}
-
-/// Tells why on stderr.
-inline int failed(const Error& error) {
-  fmt::print(stderr, "{}\n", error.message);
-  return 1;
 }
 
 /// As in_parallel; scenes that fail are told on stderr and left out.

@@ -1,19 +1,13 @@
 // The subcommands of flowdlo-train. Exit codes: 0 done, 1 failed, 2 wrong usage.
 #pragma once
 
-#include <fmt/format.h>
-
 #include <CLI/CLI.hpp>
 
-#include "flowdlo/result.hpp"
+#include "survey/failed.hpp"
 
 namespace flowdlo::train {
 
-/// Tells why on stderr; `code` is the exit code.
-inline int failed(const Error& error, int code = 1) {
-  fmt::print(stderr, "{}\n", error.message);
-  return code;
-}
+using survey::failed;
 
 void add_records_command(CLI::App& app, int& exit_code);
 /// `argc` and `argv` become the training command in the weights' metadata.
