@@ -34,11 +34,12 @@ using Reading = std::vector<Hypothesis>;  // what one reading brought forth, bes
 /// Reading made of paths; nothing where it fails.
 template <class Trace>
 Reading read_by(const Trace& trace, std::size_t most, const Conditions& conditions,
-                const Frame& frame, weights::PriorKind prior_kind) {
+                const Frame& frame, const ReadConfig& config) {
   auto reading = guard::guarded("second look", [&]() -> Result<Reading> {
     const Result<path::Traversals> paths = trace();
     if (!paths) return paths.error();
-    return lift_all(*paths, conditions.cloud, conditions.visible, frame, prior_kind);
+    return lift_all(*paths, conditions.cloud, conditions.visible, frame, config.prior_kind,
+                    config.pool);
   });
   if (!reading) {
     // A reading that is left out for want of memory would make the frame's estimate another one.
@@ -52,8 +53,8 @@ Reading read_by(const Trace& trace, std::size_t most, const Conditions& conditio
 /// The axes that the network sees, and the paths along them.
 Result<path::Traversals> trace_seen(field::Network& network, const Frame& frame,
                                     float rope_width_px, const path::TraceConfig& config,
-                                    std::optional<field::Axes>& axes) {
-  const auto seen = field::see(frame, rope_width_px, network);
+                                    threads::Pool* pool, std::optional<field::Axes>& axes) {
+  const auto seen = field::see(frame, rope_width_px, network, false, pool);
   if (!seen) return seen.error();
   axes = field::axes(*seen);
   auto paths = path::trace_strands(frame, *axes, config);
@@ -211,11 +212,12 @@ void Rereading::read(Read& result) {
   const path::TraceConfig config = config_.trace(conditions_.cleaned);
   const auto trace = [&] {
     if (result.kind == Kind::kCloserField) {
-      return trace_seen(*field_, frame_, kCloser * conditions_.paths.rope_width_px, config, axes_);
+      return trace_seen(*field_, frame_, kCloser * conditions_.paths.rope_width_px, config,
+                        config_.pool, axes_);
     }
     return path::trace(frame_, config);
   };
-  result.hypotheses = read_by(trace, kOfOne, conditions_, frame_, config_.prior_kind);
+  result.hypotheses = read_by(trace, kOfOne, conditions_, frame_, config_);
   result.end = Clock::now();
 }
 

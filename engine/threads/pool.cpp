@@ -1,5 +1,6 @@
 #include "threads/pool.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "threads/team.hpp"
@@ -17,12 +18,19 @@ Pool::~Pool() {
   for (std::thread& helper : helpers_) helper.join();
 }
 
+Beside* Pool::newest(std::size_t first) const {
+  for (std::size_t i = open_.size(); i > first; --i) {
+    if (open_[i - 1]->has_more()) return open_[i - 1];
+  }
+  return nullptr;
+}
+
 void Pool::serve() {
   std::unique_lock held(mutex_);
   while (true) {
-    changed_.wait(held, [this] { return ends_ || (at_ != nullptr && at_->has_more()); });
+    changed_.wait(held, [this] { return ends_ || newest() != nullptr; });
     if (ends_) return;
-    at_->do_one(held);
+    newest()->do_one(held);
   }
 }
 
@@ -31,8 +39,7 @@ Beside::Beside(Pool& pool, int pieces, std::function<void(int)> work)
   if (pieces_ < 1) return;
   {
     const std::lock_guard held(pool_.mutex_);
-    if (pool_.at_ != nullptr) return;
-    pool_.at_ = this;
+    pool_.open_.push_back(this);
   }
   pool_.changed_.notify_all();
 }
@@ -41,13 +48,22 @@ Beside::~Beside() {
   std::unique_lock held(pool_.mutex_);
   next_ = pieces_;
   pool_.changed_.wait(held, [this] { return under_way_ == 0; });
-  if (pool_.at_ == this) pool_.at_ = nullptr;
+  std::erase(pool_.open_, this);
 }
 
 void Beside::finish() {
   std::unique_lock held(pool_.mutex_);
   while (has_more()) do_one(held);
-  pool_.changed_.wait(held, [this] { return under_way_ == 0; });
+  while (under_way_ > 0) {
+    // What is newer was begun by a piece under way, or by somebody who waits for it.
+    const auto place = std::find(pool_.open_.begin(), pool_.open_.end(), this);
+    Beside* const newer = pool_.newest(static_cast<std::size_t>(place - pool_.open_.begin()));
+    if (newer != nullptr) {
+      newer->do_one(held);
+    } else {
+      pool_.changed_.wait(held);
+    }
+  }
   if (thrown_) std::rethrow_exception(std::exchange(thrown_, nullptr));
 }
 

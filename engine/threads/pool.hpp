@@ -4,6 +4,7 @@
 #pragma once
 
 #include <condition_variable>
+#include <cstddef>
 #include <exception>
 #include <functional>
 #include <mutex>
@@ -28,16 +29,18 @@ class Pool {
   friend class Beside;
 
   void serve();
+  /// The newest of what is open from `first` on that has pieces to begin; null where none has.
+  [[nodiscard]] class Beside* newest(std::size_t first = 0) const;
 
   std::mutex mutex_;
   std::condition_variable changed_;
-  class Beside* at_ = nullptr;  // what is worked on; guarded by mutex_, as all that it holds
+  std::vector<class Beside*> open_;  // oldest first; guarded by mutex_, as all that they hold
   bool ends_ = false;
   std::vector<std::thread> helpers_;
 };
 
-/// A number of pieces of work, done by a pool's threads beside what the caller does. A pool works
-/// on one such thing at a time; a second one waits for finish().
+/// A number of pieces of work, done by a pool's threads beside what the caller does. A piece may
+/// begin such a thing itself: of several at a time the threads take the newest one's pieces first.
 class Beside {
  public:
   /// Begins. `work` is called with 0 up to `pieces` - 1, each once, on any thread.
@@ -47,7 +50,8 @@ class Beside {
   Beside(const Beside&) = delete;
   Beside& operator=(const Beside&) = delete;
 
-  /// Lends a hand; returns when all is done. Of what the pieces throw, one is thrown again here.
+  /// Lends a hand, to what the pieces began as well; returns when all is done. Of what the pieces
+  /// throw, one is thrown again here.
   void finish();
 
  private:
@@ -64,9 +68,9 @@ class Beside {
   std::exception_ptr thrown_;
 };
 
-/// work(0) up to work(pieces - 1), each once, on a pool's threads and the caller's; without a pool,
-/// or where it is at work on something else, on the caller's alone. Of what the pieces throw, one
-/// is thrown again here.
+/// work(0) up to work(pieces - 1), each once, on a pool's threads, as far as they are free, and the
+/// caller's; without a pool on the caller's alone. Of what the pieces throw, one is thrown again
+/// here.
 void share_out(Pool* pool, int pieces, const std::function<void(int)>& work);
 
 }  // namespace flowdlo::threads

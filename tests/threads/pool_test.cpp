@@ -96,6 +96,41 @@ TEST(Pool, ASecondThingIsDoneByItsCaller) {
   first.finish();
 }
 
+TEST(Pool, WhoWaitsForAPieceHelpsWithWhatItBegan) {
+  Pool pool(2);
+  std::set<std::thread::id> seen;
+  std::mutex mutex;
+  std::latch both(2);
+  Beside outer(pool, 1, [&](int) {
+    share_out(&pool, 2, [&](int) {
+      both.arrive_and_wait();  // for ever, if one thread did both
+      const std::lock_guard lock(mutex);
+      seen.insert(std::this_thread::get_id());
+    });
+  });
+  outer.finish();
+  EXPECT_EQ(seen.size(), 2U);
+}
+
+TEST(Pool, WorkWithinWorkWithinWorkIsDoneOnce) {
+  for (const int threads : {1, 2, 4}) {
+    Pool pool(threads);
+    std::atomic<int> done = 0;
+    share_out(&pool, 5, [&](int) {
+      share_out(&pool, 6, [&](int) { share_out(&pool, 7, [&](int) { ++done; }); });
+    });
+    EXPECT_EQ(done, 5 * 6 * 7);
+  }
+}
+
+TEST(Pool, WhatWorkWithinWorkThrowsComesToTheOutermostCaller) {
+  Pool pool(3);
+  const auto inner = [&](int piece) {
+    if (piece == 2) throw std::runtime_error("two");
+  };
+  EXPECT_THROW(share_out(&pool, 4, [&](int) { share_out(&pool, 4, inner); }), std::runtime_error);
+}
+
 TEST(Pool, NothingToDoIsDoneAtOnce) {
   Pool pool(2);
   Beside nothing(pool, 0, [](int) { FAIL(); });
