@@ -22,6 +22,7 @@
 #include "eval/job_loop.hpp"
 #include "eval/merged_rows.hpp"
 #include "eval/row_file.hpp"
+#include "eval/parts.hpp"
 #include "eval/sweep.hpp"
 #include "eval/tables.hpp"
 #include "files/folder.hpp"
@@ -53,6 +54,7 @@ struct EvalOptions {
   int worst = 0;
   std::vector<int> sweep_steps;
   std::vector<int> sweep_draws;
+  bool parts = false;
   bool quiet = false;
 };
 
@@ -196,11 +198,47 @@ Result<void> draw_worst(const EvalOptions& options, const std::vector<support::F
   return staged.commit();
 }
 
-/// Error against K and D in place of the tables.
-support::ExitCode run_sweep(const EvalOptions& options,
-                            const std::vector<support::FrameEntry>& frames) {
+/// A table in place of the usual ones.
+support::ExitCode save_table(const EvalOptions& options, const char* name,
+                             const std::string& table) {
+  if (const auto made = make_out(options.out); !made) return complain(made.error());
+  files::StagedFiles staged(support::chosen_durability());
+  auto saved = staged.add(options.out / name, table);
+  if (saved) saved = staged.commit();
+  if (!saved) return complain(saved.error(), support::ExitCode::kFailed);
+  if (!options.quiet) support::tell("{}", table);
+  return support::ExitCode::kDone;
+}
+
+std::vector<fs::path> folders_of(const std::vector<support::FrameEntry>& frames) {
   std::vector<fs::path> folders;
   for (const support::FrameEntry& entry : frames) folders.push_back(entry.folder);
+  return folders;
+}
+
+/// What each part adds.
+support::ExitCode run_parts(const EvalOptions& options,
+                            const std::vector<support::FrameEntry>& frames) {
+  const auto folders = folders_of(frames);
+  support::ProgressBar progress("parts", static_cast<int>(folders.size() * eval::count_of_parts()),
+                                options.quiet);
+  const auto parts =
+      eval::measure_parts(options.config, folders, [&progress] { progress.advance(); });
+  if (!parts) return complain(parts.error(), support::ExitCode::kUsage);
+  progress.clear();
+  if (parts->scenes.empty()) {
+    return complain({ErrorCode::kBadInput,
+                     "eval --parts: expected frames with truth.csv that give an estimate, got "
+                     "none; name a folder of such frames"},
+                    support::ExitCode::kUsage);
+  }
+  return save_table(options, "parts.md", eval::parts_markdown(*parts));
+}
+
+/// Error against K and D.
+support::ExitCode run_sweep(const EvalOptions& options,
+                            const std::vector<support::FrameEntry>& frames) {
+  const auto folders = folders_of(frames);
   const auto steps = options.sweep_steps.empty() ? std::vector{1, 2, 4, 10} : options.sweep_steps;
   const auto draws = options.sweep_draws.empty() ? std::vector{1, 2, 4} : options.sweep_draws;
   const auto rounds = frames.size() * eval::settings_of(steps, draws);
@@ -208,15 +246,7 @@ support::ExitCode run_sweep(const EvalOptions& options,
   const auto settings =
       eval::sweep(options.config, folders, steps, draws, [&progress] { progress.advance(); });
   if (!settings) return complain(settings.error(), support::ExitCode::kUsage);
-  const std::string table = eval::sweep_markdown(*settings);
-  std::error_code failure;
-  fs::create_directories(options.out, failure);
-  files::StagedFiles staged(support::chosen_durability());
-  auto saved = staged.add(options.out / "sweep.md", table);
-  if (saved) saved = staged.commit();
-  if (!saved) return complain(saved.error(), support::ExitCode::kFailed);
-  if (!options.quiet) support::tell("{}", table);
-  return support::ExitCode::kDone;
+  return save_table(options, "sweep.md", eval::sweep_markdown(*settings));
 }
 
 /// Tables and plots of everything that `merged` holds: of one run or of many parts, the same bytes.
@@ -264,6 +294,7 @@ support::ExitCode run(const EvalOptions& options) {
   if (!options.sweep_steps.empty() || !options.sweep_draws.empty()) {
     return run_sweep(options, *frames);
   }
+  if (options.parts) return run_parts(options, *frames);
   auto evaluators = create_evaluators(options, frames->size());
   if (!evaluators) return complain(evaluators.error(), support::ExitCode::kUsage);
   const auto info = describe(options, *frames, *shard, evaluators->front().estimator());
@@ -332,6 +363,8 @@ void add_eval_command(CLI::App& app, support::ExitCode& exit_code) {
       ->delimiter(',')
       ->check(CLI::Range(1, 64))
       ->type_name("D,...");
+  command->add_flag("--parts", options->parts,
+                    "What each part of the estimator adds (parts.md) in place of the tables");
   command->add_flag("--quiet", options->quiet, "Print errors only");
   support::add_recording_options(*command, options->recordings);
   auto merging = std::make_shared<MergeOptions>();

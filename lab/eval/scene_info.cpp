@@ -57,6 +57,12 @@ Result<SceneInfo> read_scene_info(const std::filesystem::path& folder) {
     if (!found->is_number_integer()) return bad(file, "expected a whole number for \"crossings\"");
     info.crossings = found->get<int>();
   }
+  const auto metres = [&](const char* key) {
+    const auto found = json.find(key);
+    return found != json.end() && found->is_number() ? found->get<double>() : 0.0;
+  };
+  const double radius_m = metres("radius_m");
+  if (radius_m > 0) info.gap_widths = metres("longest_gap_m") / (2 * radius_m);
   if (const auto found = json.find("defects"); found != json.end()) {
     if (!found->is_object()) return bad(file, "expected an object for \"defects\"");
     info.described = true;

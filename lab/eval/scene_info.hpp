@@ -15,6 +15,7 @@ struct SceneInfo {
   std::set<std::string> defects;  ///< names of the switches in "defects" that are on
   bool described = false;         ///< meta.json has defects: easy() and hard() mean something
   int crossings = 0;
+  double gap_widths = 0;  ///< longest stretch of the rope that nothing shows, in its widths
 
   [[nodiscard]] bool has(const std::string& defect) const { return defects.count(defect) > 0; }
   /// Gap, touching strands, coil, or depth holes: where geometry has to guess.

@@ -79,6 +79,36 @@ TEST(EvalCommand, SweepMeasuresErrorAgainstStepsAndDraws) {
   }
 }
 
+TEST(EvalCommand, PartsAreSwitchedOnOneAfterTheOther) {
+  const TemporaryFolder scratch;
+  const fs::path data_set = scratch.path() / "scenes";
+  fs::create_directory(data_set);
+  save_scene(data_set, "one", 1);
+  const auto out = scratch.path() / "out";
+  const auto outcome = run_flowdlo(
+      scratch.path(),
+      {"eval", data_set.string(), "--out", out.string(), "--device", "cpu", "--parts"});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_EQ(outcome.out, test::read_text(out / "parts.md"));
+  for (const char* row : {"| mask alone, its first prior |", "| strand field, judged |",
+                          "| K = 10, D = 4: `full` |", "over 1 frames"}) {
+    EXPECT_THAT(outcome.out, HasSubstr(row));
+  }
+}
+
+TEST(EvalCommand, PartsOfFramesWithoutTruthAreWrongUsage) {
+  const TemporaryFolder scratch;
+  const fs::path data_set = scratch.path() / "scenes";
+  fs::create_directory(data_set);
+  fs::remove(save_scene(data_set, "one", 1) / "truth.csv");
+  const auto outcome =
+      run_flowdlo(scratch.path(), {"eval", data_set.string(), "--out",
+                                   (scratch.path() / "out").string(), "--device", "cpu", "--parts"});
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_THAT(outcome.err, HasSubstr("truth.csv"));
+  EXPECT_FALSE(fs::exists(scratch.path() / "out" / "parts.md"));
+}
+
 TEST(EvalCommand, BadFrameCostsOneRow) {
   const TemporaryFolder scratch;
   const fs::path data_set = scratch.path() / "scenes";
