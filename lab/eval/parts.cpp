@@ -58,10 +58,9 @@ std::vector<double> hidden_of(const Centerline& nodes, const Centerline& truth,
     const auto v = std::lround(camera.fy * place.y / place.z + camera.cy);
     const bool inside = u >= 0 && v >= 0 && u < frame.width && v < frame.height;
     if (inside && frame.mask[static_cast<std::size_t>(v * frame.width + u)] > 127) continue;
-    hidden.push_back(
-        std::hypot(static_cast<double>(nodes[i].x - place.x),
-                   static_cast<double>(nodes[i].y - place.y),
-                   static_cast<double>(nodes[i].z - place.z)));
+    hidden.push_back(std::hypot(static_cast<double>(nodes[i].x - place.x),
+                                static_cast<double>(nodes[i].y - place.y),
+                                static_cast<double>(nodes[i].z - place.z)));
   }
   return hidden;
 }
@@ -179,7 +178,8 @@ std::string parts_markdown(const Parts& parts) {
     std::vector<std::string> cells{part.name};
     for (const Group& group : kGroups) {
       const auto errors = errors_of(part, parts.scenes, group);
-      std::string cell = errors.empty() ? "-" : fmt::format("{:.3f}", survey::Values(errors).mean());
+      std::string cell =
+          errors.empty() ? "-" : fmt::format("{:.3f}", survey::Values(errors).mean());
       if (&group == kGroups.data() && &part != &whole) {
         const Interval ratio = ratio_interval(errors, errors_of(whole, parts.scenes, group));
         cell += fmt::format(" ({:.2f} [{:.2f}, {:.2f}])", ratio.value, ratio.low, ratio.high);

@@ -85,9 +85,8 @@ TEST(EvalCommand, PartsAreSwitchedOnOneAfterTheOther) {
   fs::create_directory(data_set);
   save_scene(data_set, "one", 1);
   const auto out = scratch.path() / "out";
-  const auto outcome = run_flowdlo(
-      scratch.path(),
-      {"eval", data_set.string(), "--out", out.string(), "--device", "cpu", "--parts"});
+  const auto outcome = run_flowdlo(scratch.path(), {"eval", data_set.string(), "--out",
+                                                    out.string(), "--device", "cpu", "--parts"});
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_EQ(outcome.out, test::read_text(out / "parts.md"));
   for (const char* row : {"| mask alone, its first prior |", "| strand field, judged |",
@@ -101,9 +100,9 @@ TEST(EvalCommand, PartsOfFramesWithoutTruthAreWrongUsage) {
   const fs::path data_set = scratch.path() / "scenes";
   fs::create_directory(data_set);
   fs::remove(save_scene(data_set, "one", 1) / "truth.csv");
-  const auto outcome =
-      run_flowdlo(scratch.path(), {"eval", data_set.string(), "--out",
-                                   (scratch.path() / "out").string(), "--device", "cpu", "--parts"});
+  const auto outcome = run_flowdlo(
+      scratch.path(), {"eval", data_set.string(), "--out", (scratch.path() / "out").string(),
+                       "--device", "cpu", "--parts"});
   EXPECT_EQ(outcome.exit_code, 2);
   EXPECT_THAT(outcome.err, HasSubstr("truth.csv"));
   EXPECT_FALSE(fs::exists(scratch.path() / "out" / "parts.md"));
