@@ -1,5 +1,6 @@
 #include "path/end_look.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -68,8 +69,11 @@ EndLook look_of(const std::vector<Vector2f>& points, float scale_px, const Regio
 
 float color_misfit(const EndLook& a, const EndLook& b) {
   if (a.color_spread < 0 || b.color_spread < 0) return 0;
-  const float noise = kColorNoise + a.color_spread + b.color_spread;
-  const float ratio = (a.color_bgr - b.color_bgr).norm() / noise;
+  const float brighter = std::max(a.color_bgr.norm(), b.color_bgr.norm());
+  if (brighter <= 0) return 0;
+  // How far the darker one's colour is from the line of all that light makes of the brighter one's.
+  const float off = a.color_bgr.cross(b.color_bgr).norm() / brighter;
+  const float ratio = off / (kColorNoise + a.color_spread + b.color_spread);
   return 1 - std::exp(-0.5F * ratio * ratio);
 }
 

@@ -23,7 +23,8 @@ struct EndLook {
                               const Region& region, const Frame& frame,
                               const field::FieldView& seen);
 
-/// [0, 1) how much another colour one has than the other; 0 where that is not known.
+/// [0, 1) how much another colour one has than the other, whatever light falls on either; 0 where
+/// that is not known. Grey and white are one colour.
 [[nodiscard]] float color_misfit(const EndLook& a, const EndLook& b);
 
 }  // namespace flowdlo::path

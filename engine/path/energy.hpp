@@ -16,7 +16,7 @@ enum LinkTerm : std::size_t {
   kLinkOpen,     ///< 1 - exp(-l / (0.3 w)), l: over which the background shows where a rope would
   kLinkUnshown,  ///< 1 - exp(-l / (2 w)), l: over which the mask is set but no strand of the field
                  ///< runs that way; 0 without a field
-  kLinkColor,    ///< how much another colour one strand has than the other
+  kLinkColor,    ///< how much another colour one strand has than the other, in any light
   kLinkDepth,    ///< log(1 + r^2 / 2), r: how far the depths on both sides are from one smooth
                  ///< strand, over what noise makes of it
   kLinkHeard,  ///< how likely one of both ends goes on elsewhere, by the reading of the mask alone
@@ -42,7 +42,7 @@ inline constexpr LinkTerms kOneRopeLinks{1.0F, 1.05F, 0.95F, 2.0F, 3.4F, 0.8F, 0
 /// Where a rope may as well end. Fitted by the same with `--first 3200000 --scenes 200 --several
 /// 700`, as what stops cost; depth, whose fit says nothing, so that 12 cm of it outweigh a right
 /// angle.
-inline constexpr LinkTerms kSeveralRopesLinks{2.1F, 1.0F, 0.4F, 2.0F, 1.7F, 1.0F, 0.5F, 1.0F};
+inline constexpr LinkTerms kSeveralRopesLinks{2.1F, 1.0F, 0.4F, 2.0F, 1.7F, 1.6F, 0.5F, 1.0F};
 inline constexpr StopTerms kStopWeights{1.6F, 4.7F, 1.0F};
 
 /// Of each width of a strand that a path leaves out. Chosen on `wide` training scenes 3000500 to

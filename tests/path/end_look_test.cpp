@@ -2,6 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cstdint>
+#include <vector>
+
 #include "field/channel.hpp"
 #include "path/links.hpp"
 #include "path/strand_reading.hpp"
@@ -19,10 +23,13 @@ EndLook colored(float blue, float green, float red, float spread) {
   return look;
 }
 
-TEST(EndLook, AnotherColourIsAMisfitAndShadingIsHardlyOne) {
+TEST(EndLook, AnotherColourIsAMisfitAndNoLightMakesOne) {
   const EndLook red = colored(30, 30, 200, 8);
   EXPECT_EQ(color_misfit(red, red), 0);
   EXPECT_LT(color_misfit(red, colored(28, 27, 190, 8)), 0.1F);
+  EXPECT_LT(color_misfit(red, colored(8, 8, 50, 8)), 0.1F) << "in the shade";
+  EXPECT_LT(color_misfit(colored(90, 90, 90, 4), colored(240, 240, 240, 4)), 0.1F);
+  EXPECT_EQ(color_misfit(colored(0, 0, 0, 0), colored(0, 0, 0, 0)), 0) << "nothing to be seen";
   EXPECT_GT(color_misfit(red, colored(200, 60, 30, 8)), 0.95F);
   EXPECT_EQ(color_misfit(red, colored(200, 60, 30, 8)), color_misfit(colored(200, 60, 30, 8), red));
   EXPECT_GT(color_misfit(red, colored(60, 60, 160, 4)), color_misfit(red, colored(60, 60, 160, 40)))
@@ -52,11 +59,14 @@ struct TwoAxes : test::Seen {
     const Cover cover(*region, frame, strands.width_px, strands.seen);
     return link_between(1, 2, strands, cover, kOneRopeLinks).terms;
   }
-  void paint(std::uint8_t left, std::uint8_t right) {
+  using Bgr = std::array<std::uint8_t, 3>;
+
+  void paint(const Bgr& left, const Bgr& right) {
     const int width = canvas.mask.cols;
-    color.assign(3 * canvas.mask.total(), 0);
+    color.clear();
     for (std::size_t i = 0; i < canvas.mask.total(); ++i) {
-      color[3 * i] = static_cast<int>(i) % width < 160 ? left : right;
+      const Bgr& here = static_cast<int>(i) % width < 160 ? left : right;
+      color.insert(color.end(), here.begin(), here.end());
     }
   }
 
@@ -66,9 +76,9 @@ struct TwoAxes : test::Seen {
 TEST(EndLook, ALinkBetweenStrandsOfOtherColoursPaysForIt) {
   TwoAxes pair;
   EXPECT_EQ(pair.link()[kLinkColor], 0) << "no colour";
-  pair.paint(90, 90);
+  pair.paint({90, 30, 30}, {90, 30, 30});
   EXPECT_EQ(pair.link()[kLinkColor], 0);
-  pair.paint(90, 220);
+  pair.paint({90, 30, 30}, {30, 90, 200});
   EXPECT_GT(pair.link()[kLinkColor], 0.9F);
 }
 
