@@ -40,6 +40,7 @@ struct LookArguments {
 struct ExportArguments {
   std::filesystem::path folder;
   std::filesystem::path file;
+  std::filesystem::path refine;
 };
 
 struct FieldArguments {
@@ -120,7 +121,19 @@ int export_field(const ExportArguments& arguments) {
   if (!state) return failed(state.error());
   const std::string notes =
       fmt::format("{}, step {}; {}", state->command, state->step, describe(torch::kCPU));
-  const auto saved = weights::save_field(strand::exported(*state, notes), arguments.file);
+  auto field = strand::exported(*state, notes);
+  if (!arguments.refine.empty()) {
+    auto other = weights::load_field(arguments.refine);
+    if (!other) return failed(other.error());
+    if (!other->refine) {
+      return failed({ErrorCode::kBadInput,
+                     fmt::format("{}: expected the network that refines beside the strand field, "
+                                 "got the field alone; name another file, or leave --refine out",
+                                 arguments.refine.string())});
+    }
+    field.refine = std::move(other->refine);
+  }
+  const auto saved = weights::save_field(field, arguments.file);
   if (!saved) return failed(saved.error());
   fmt::print("{}: step {}\n", arguments.file.string(), state->step);
   return 0;
@@ -208,6 +221,8 @@ void add_field_commands(CLI::App& app, int argc, char** argv, int& exit_code) {
   auto* write = app.add_subcommand("field-export", "A checkpoint as the engine reads it");
   write->add_option("folder", out->folder, "Folder of the checkpoint")->required();
   write->add_option("file", out->file, ".safetensors to write")->required();
+  write->add_option("--refine", out->refine,
+                    "Exported .safetensors whose network that refines is taken over");
   write->callback([out, &exit_code] { exit_code = export_field(*out); });
 
   auto arguments = std::make_shared<FieldArguments>();
