@@ -35,13 +35,14 @@ using StopTerms = std::array<float, kStopTerms>;
 
 /// Of one rope's way, which has two ends whatever they cost. Fitted by `flowdlo-lab energy-fit` to
 /// the ends of strands in 900 `wide` training scenes of one rope (from 3200000 on), of which the
-/// right one of all links is to be the likeliest; colour as below; depth, whose fit says nothing,
-/// on scenes 3000000 to 3000599 by `flowdlo-lab reading-report`.
+/// right one of all links is to be the likeliest; colour from the other fit, before it was compared
+/// in any light; depth, whose fit says nothing, on scenes 3000000 to 3000599 by `flowdlo-lab
+/// reading-report`.
 inline constexpr LinkTerms kOneRopeLinks{1.0F, 1.05F, 0.95F, 2.0F, 3.4F, 0.8F, 0.3F, 0.0F};
 
 /// Where a rope may as well end. Fitted by the same with `--first 3200000 --scenes 200 --several
-/// 700`, as what stops cost; depth, whose fit says nothing, so that 12 cm of it outweigh a right
-/// angle.
+/// 700`, as what stops cost; colour, in any light, with `--scenes 100 --several 330`; depth, whose
+/// fit says nothing, so that 12 cm of it outweigh a right angle.
 inline constexpr LinkTerms kSeveralRopesLinks{2.1F, 1.0F, 0.4F, 2.0F, 1.7F, 1.6F, 0.5F, 1.0F};
 inline constexpr StopTerms kStopWeights{1.6F, 4.7F, 1.0F};
 

@@ -133,12 +133,11 @@ std::size_t count_of_parts() { return kSetups.size(); }
 Result<Parts> measure_parts(const Config& config, std::span<const std::filesystem::path> frames,
                             const std::function<void()>& advance) {
   Parts parts;
-  std::vector<std::filesystem::path> with_truth;
+  std::vector<std::filesystem::path> described;
   for (const auto& frame : frames) {
-    const auto folder = load_frame_folder(frame);
     const auto scene = read_scene_info(frame);
-    if (!folder || !folder->truth || !scene) continue;
-    with_truth.push_back(frame);
+    if (!scene) continue;
+    described.push_back(frame);
     parts.scenes.push_back(*scene);
   }
   std::vector<std::vector<std::optional<PartOutcome>>> all;
@@ -153,9 +152,10 @@ Result<Parts> measure_parts(const Config& config, std::span<const std::filesyste
     if (!estimator) return estimator.error();
     parts.parts.push_back({setup.name});
     auto& outcomes = all.emplace_back();
-    for (const auto& frame : with_truth) {
+    for (const auto& frame : described) {
       const auto folder = load_frame_folder(frame);
-      outcomes.push_back(folder ? outcome_of(*estimator, setup, *folder) : std::nullopt);
+      const bool usable = folder && folder->truth;
+      outcomes.push_back(usable ? outcome_of(*estimator, setup, *folder) : std::nullopt);
       advance();
     }
   }

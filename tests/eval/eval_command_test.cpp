@@ -27,6 +27,14 @@ fs::path save_scene(const fs::path& data_set, const std::string& name, std::uint
   return data_set / name;
 }
 
+/// A data set of one scene, "one".
+fs::path one_scene(const TemporaryFolder& scratch) {
+  const fs::path data_set = scratch.path() / "scenes";
+  fs::create_directory(data_set);
+  save_scene(data_set, "one", 1);
+  return data_set;
+}
+
 test::Outcome run_eval(const fs::path& scratch, const fs::path& data_set) {
   return run_flowdlo(scratch, {"eval", data_set.string(), "--out", (scratch / "out").string(),
                                "--device", "cpu", "--draws", "1", "--steps", "1"});
@@ -51,9 +59,7 @@ TEST(EvalCommand, WritesTablesAndRows) {
 
 TEST(EvalCommand, QualityFastNamesTheStepsAndDrawsThatRan) {
   const TemporaryFolder scratch;
-  const fs::path data_set = scratch.path() / "scenes";
-  fs::create_directory(data_set);
-  save_scene(data_set, "one", 1);
+  const fs::path data_set = one_scene(scratch);
   const fs::path weights = scratch.path() / "fast.fdw";
   ASSERT_TRUE(set_fast_quality(FLOWDLO_WEIGHTS, /*steps=*/3, /*draws=*/2, weights));
   const auto outcome = run_flowdlo(
@@ -65,9 +71,7 @@ TEST(EvalCommand, QualityFastNamesTheStepsAndDrawsThatRan) {
 
 TEST(EvalCommand, SweepMeasuresErrorAgainstStepsAndDraws) {
   const TemporaryFolder scratch;
-  const fs::path data_set = scratch.path() / "scenes";
-  fs::create_directory(data_set);
-  save_scene(data_set, "one", 1);
+  const fs::path data_set = one_scene(scratch);
   const auto out = scratch.path() / "out";
   const auto outcome =
       run_flowdlo(scratch.path(), {"eval", data_set.string(), "--out", out.string(), "--device",
@@ -81,9 +85,7 @@ TEST(EvalCommand, SweepMeasuresErrorAgainstStepsAndDraws) {
 
 TEST(EvalCommand, PartsAreSwitchedOnOneAfterTheOther) {
   const TemporaryFolder scratch;
-  const fs::path data_set = scratch.path() / "scenes";
-  fs::create_directory(data_set);
-  save_scene(data_set, "one", 1);
+  const fs::path data_set = one_scene(scratch);
   const auto out = scratch.path() / "out";
   const auto outcome = run_flowdlo(scratch.path(), {"eval", data_set.string(), "--out",
                                                     out.string(), "--device", "cpu", "--parts"});
@@ -97,9 +99,8 @@ TEST(EvalCommand, PartsAreSwitchedOnOneAfterTheOther) {
 
 TEST(EvalCommand, PartsOfFramesWithoutTruthAreWrongUsage) {
   const TemporaryFolder scratch;
-  const fs::path data_set = scratch.path() / "scenes";
-  fs::create_directory(data_set);
-  fs::remove(save_scene(data_set, "one", 1) / "truth.csv");
+  const fs::path data_set = one_scene(scratch);
+  fs::remove(data_set / "one" / "truth.csv");
   const auto outcome = run_flowdlo(
       scratch.path(), {"eval", data_set.string(), "--out", (scratch.path() / "out").string(),
                        "--device", "cpu", "--parts"});
