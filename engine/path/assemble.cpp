@@ -19,9 +19,6 @@ namespace {
 using Eigen::Vector2f;
 using Points = std::vector<Vector2f>;
 
-constexpr float kRunOutWidths = 0.2F;  // past the middle of a strand that hides the end
-constexpr float kBulgeLeast = 0.85F;   // the mask reaches this far past it where a tip shows,
-constexpr float kBulgeMost = 1.6F;     // and further where the end runs along that strand
 constexpr float kShortestAxisPx = 4.0F;
 
 struct Drawn {
@@ -115,24 +112,6 @@ void draw_bond(const Strands& strands, const Region& region, const Cover& cover,
   for (const Vector2f& p : points) drawn.add(p, gap);
 }
 
-// An end at a crossing touches the other strand, or lies on it, or hardly shows behind it. Straight
-// on to that strand's middle is never far off; where the mask bulges beyond, the tip shows.
-Points run_out(const StrandEnd& end, const image::Mask& mask, float width_px) {
-  Points points;
-  const float to_middle = (end.node_px - end.point_px).norm();
-  const auto most = static_cast<int>(to_middle + kBulgeMost * width_px);
-  for (int step = 1; step <= most; ++step) {
-    const Vector2f p = end.point_px + static_cast<float>(step) * end.outward;
-    if (!lit(mask, p)) break;
-    points.push_back(p);
-  }
-  const float beyond = static_cast<float>(points.size()) - to_middle;
-  const bool bulge = beyond > kBulgeLeast * width_px && static_cast<int>(points.size()) < most;
-  const auto plain = static_cast<std::size_t>(to_middle + kRunOutWidths * width_px);
-  if (!bulge && points.size() > plain) points.resize(plain);
-  return points;
-}
-
 // About one pixel apart; the ends stay, points nearer than a tenth of a pixel are dropped.
 Drawn resampled(const Drawn& drawn) {
   Drawn result;
@@ -185,10 +164,6 @@ Path assemble(const Traversal& traversal, const Strands& strands, const Region& 
   Drawn drawn;
   const StrandEnd& first = strands.end(traversal.enters.front());
   const StrandEnd& last = strands.end(traversal.enters.back() ^ 1);
-  if (!first.tip() && !traversal.closed) {
-    const Points out = run_out(first, region.mask, strands.width_px);
-    for (auto it = out.rbegin(); it != out.rend(); ++it) drawn.add(*it, false);
-  }
   for (std::size_t i = 0; i < traversal.enters.size(); ++i) {
     const int enter = traversal.enters[i];
     if (i > 0) {
@@ -201,8 +176,6 @@ Path assemble(const Traversal& traversal, const Strands& strands, const Region& 
   if (traversal.closed && traversal.enters.size() > 0 &&
       !strands.list[traversal.enters.front() / 2].ring) {
     draw_bond(strands, region, cover, traversal.enters.back() ^ 1, traversal.enters.front(), drawn);
-  } else if (!last.tip()) {
-    for (const Vector2f& p : run_out(last, region.mask, strands.width_px)) drawn.add(p, false);
   }
   drawn = resampled(drawn);
   const int half = std::clamp(static_cast<int>(std::lround(0.2F * strands.width_px)), 1, 5);

@@ -13,7 +13,6 @@
 #include "path/cover.hpp"
 #include "path/crossings.hpp"
 #include "path/midline.hpp"
-#include "path/rim.hpp"
 
 namespace flowdlo::path {
 namespace {
@@ -50,10 +49,9 @@ int distorted(const Points& points, const image::Image<float>& distance, float s
   return most;
 }
 
-// Cuts what is skewed at a tip (half a width; all of the corner where an occluder cut the rope
-// aslant, but for points `on_rim`).
-void trim_tip(Points& points, std::vector<std::uint8_t>& on_rim, const Region& region,
-              float width_px, float scale_px) {
+// Cuts what is skewed at a tip: half a width, and all of the corner where an occluder cut the rope
+// aslant.
+void trim_tip(Points& points, const Region& region, float width_px, float scale_px) {
   std::vector<float> distances;
   const auto near = std::min(points.size(), static_cast<std::size_t>(kTipWidths * scale_px));
   for (std::size_t i = 0; i < near; ++i) distances.push_back(at(region.distance_px, points[i]));
@@ -61,16 +59,14 @@ void trim_tip(Points& points, std::vector<std::uint8_t>& on_rim, const Region& r
   const auto most = std::min(points.size() / 3, static_cast<std::size_t>(2.5F * width_px));
   std::size_t cut = 0;
   while (cut < most && ((points[cut] - points[0]).norm() < 0.5F * width_px ||
-                        (on_rim[cut] == 0 && at(region.distance_px, points[cut]) < full))) {
+                        at(region.distance_px, points[cut]) < full)) {
     ++cut;
   }
   points.erase(points.begin(), points.begin() + static_cast<std::ptrdiff_t>(cut));
-  on_rim.erase(on_rim.begin(), on_rim.begin() + static_cast<std::ptrdiff_t>(cut));
 }
 
 // Follows the direction of a trimmed tip to the mask's edge.
-void extend_tip(Points& points, std::vector<std::uint8_t>& on_rim, const Region& region,
-                float width_px, float scale_px) {
+void extend_tip(Points& points, const Region& region, float width_px, float scale_px) {
   const Vector2f out = direction_at_front(points, scale_px);
   const Vector2f start = points.front();
   Points added;
@@ -81,7 +77,6 @@ void extend_tip(Points& points, std::vector<std::uint8_t>& on_rim, const Region&
     added.push_back(p);
   }
   points.insert(points.begin(), added.rbegin(), added.rend());
-  on_rim.insert(on_rim.begin(), added.size(), std::uint8_t{0});
 }
 
 // Median of the valid depths of the mask in the five pixels around `p`; 0 without any.
@@ -193,7 +188,6 @@ Strand make_strand(const Segment& segment, const Graph& graph, const Crossings& 
   const int half = std::clamp(static_cast<int>(std::lround(0.3F * sizes.width_px)), 1, 8);
   Points points = smoothed(segment.points_px, half);
   recentre(points, region.mask, sizes.width_px);
-  std::vector<std::uint8_t> on_rim = centre_on_rim(points, cover, sizes.width_px);
   for (int side = 0; side < 2; ++side) {
     StrandEnd& end = strand.ends[side];
     end.node = segment.node[side];
@@ -203,17 +197,15 @@ Strand make_strand(const Segment& segment, const Graph& graph, const Crossings& 
     if (!strand.ring && !tip) {
       const int cut = distorted(points, region.distance_px, sizes.scale_px, sizes.width_px);
       points.erase(points.begin(), points.begin() + cut);
-      on_rim.erase(on_rim.begin(), on_rim.begin() + cut);
       if (graph.at_tip(segment, 1 - side)) strand.covers_px -= graph.nodes[end.node].distance_px;
     } else if (!strand.ring) {
-      trim_tip(points, on_rim, region, sizes.width_px, sizes.scale_px);
-      extend_tip(points, on_rim, region, sizes.width_px, sizes.scale_px);
+      trim_tip(points, region, sizes.width_px, sizes.scale_px);
+      extend_tip(points, region, sizes.width_px, sizes.scale_px);
     }
     measure_end(points, region, frame, cover, sizes.scale_px, end);
     end.tip_seen = plain_tip(end, cover, sizes.scale_px);
     look_at_end(points, region, frame, sizes.scale_px, {}, end);
     std::reverse(points.begin(), points.end());
-    std::reverse(on_rim.begin(), on_rim.end());
   }
   strand.covers_px = std::max(0.0F, strand.covers_px);
   strand.points_px = std::move(points);
@@ -273,18 +265,16 @@ Strands make_strands(const std::vector<Stretch>& stretches, float width_px, cons
     strand.covers_px = static_cast<float>(masked);
     if (strand.covers_px < kLeastMasked * static_cast<float>(points.size())) continue;
     strand.ring = stretch.closed;
-    std::vector<std::uint8_t> on_rim = centre_on_rim(points, cover, width_px);
     for (int side = 0; side < 2; ++side) {
       StrandEnd& end = strand.ends[side];
       measure_end(points, region, frame, cover, strands.scale_px, end);
       if (end.cut && !strand.ring) {
-        trim_tip(points, on_rim, region, width_px, strands.scale_px);
+        trim_tip(points, region, width_px, strands.scale_px);
         measure_end(points, region, frame, cover, strands.scale_px, end);
       }
       end.tip_seen = stretch.tips[side];
       look_at_end(points, region, frame, strands.scale_px, seen, end);
       std::reverse(points.begin(), points.end());
-      std::reverse(on_rim.begin(), on_rim.end());
     }
     strand.points_px = std::move(points);
     strands.list.push_back(std::move(strand));

@@ -14,7 +14,6 @@
 #include "prior/doubt.hpp"
 #include "prior/ends.hpp"
 #include "prior/rope_depth.hpp"
-#include "prior/side_by_side.hpp"
 #include "prior/strip.hpp"
 #include "prior/sunken.hpp"
 
@@ -154,7 +153,6 @@ Result<Prior> refine(const path::Path& path, float rope_width_px, const evidence
       std::isfinite(rope_width_px) ? std::clamp(rope_width_px, 1.0F, kMostWidthPx) : 1.0F;
   const std::vector<Vector2f> points_px = to_the_tips(inside(path, frame), width_px, frame);
   Strip strip = make_strip(points_px, width_px, frame, cloud);
-  if (const auto apart = side_by_side(strip)) strip = make_strip(*apart, width_px, frame, cloud);
   drop_sunken(strip);
   const Extent extent = without_caps(strip, frame);
   const RopeDepth rope = measure_rope(strip, extent);

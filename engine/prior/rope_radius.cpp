@@ -17,7 +17,7 @@ constexpr std::size_t kLeastWidths = 8;  // measured ones, for a radius
 constexpr float kTellingPx = 4.0F;       // depths of thinner ropes do not tell their radius
 constexpr std::size_t kBins = 20;        // of distance from the axis, over the mask's radius
 constexpr std::size_t kLeastInBin = 40;
-constexpr float kFallsAway = 1.4F;  // times the distance from the axis
+constexpr float kFallsAway = 1.4F;    // times the distance from the axis
 constexpr float kBlockWidths = 0.5F;  // length over which the nearest fifth is taken, and once
                                       // more to both sides
 constexpr float kBehindWidths = 4.0F;

@@ -38,7 +38,8 @@ float cheapest(const Strands& strands, const std::vector<std::vector<Bond>>& bon
       const auto s = static_cast<std::size_t>(bond.to / 2);
       if (used[s]) continue;
       used[s] = true;
-      self(self, bond.to ^ 1, paid + bond.cost, left - kLeftOutEnergy * strands.list[s].covers_px / 10);
+      self(self, bond.to ^ 1, paid + bond.cost,
+           left - kLeftOutEnergy * strands.list[s].covers_px / 10);
       used[s] = false;
     }
   };
