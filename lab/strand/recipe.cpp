@@ -44,6 +44,8 @@ void visit(Visitor& visitor, Recipe& recipe) {
     v.real("flat", spoil.flat, 0, 1);
     v.real("dark", spoil.dark, 0, 1);
     v.real("moved", spoil.moved, 0, 1);
+    v.real("level", spoil.level, 0, 1);
+    v.real("mask_depth", spoil.mask_depth, 0, 1);
   });
   visitor.group("loss", [&](Visitor& v) {
     LossConfig& loss = recipe.loss;

@@ -510,21 +510,26 @@ void spoil_color(const SpoilConfig& config, Dice& dice, cv::Mat& color) {
 
 // -- Depths -------------------------------------------------------------------------------------
 
+/// The mean of what is known within `reach_px`, where anything is; elsewhere 0.
+cv::Mat smooth_where_known(const cv::Mat& depth, double reach_px) {
+  cv::Mat known;
+  cv::threshold(depth, known, 0, 1, cv::THRESH_BINARY);
+  cv::Mat weight;
+  cv::Mat sum;
+  cv::GaussianBlur(known, weight, {0, 0}, reach_px);
+  cv::GaussianBlur(depth, sum, {0, 0}, reach_px);
+  return sum / cv::max(weight, 1e-3);
+}
+
 void spoil_depth(Dice& dice, Scene& sight) {
   cv::Mat& depth = sight.depth_m;
   const cv::Mat none = depth <= 0;
   const cv::Scalar mean = cv::mean(depth, depth > 0);
   const auto width_m = static_cast<float>(field::kRope_px * mean[0]) / sight.focal_px;
   if (dice.chance(0.3)) {  // windows of a matcher: thin things sink into what is behind
-    cv::Mat known;
-    cv::threshold(depth, known, 0, 1, cv::THRESH_BINARY);
-    const double reach = static_cast<double>(dice.uniform(0.6F, 3));
-    cv::Mat weight;
-    cv::Mat blurred;
-    cv::GaussianBlur(known, weight, {0, 0}, reach);
-    cv::GaussianBlur(depth, blurred, {0, 0}, reach);
+    const cv::Mat smooth = smooth_where_known(depth, static_cast<double>(dice.uniform(0.6F, 3)));
     const double share = static_cast<double>(dice.uniform(0.3F, 1));
-    depth = (1 - share) * depth + share * blurred / cv::max(weight, 1e-3);
+    depth = (1 - share) * depth + share * smooth;
   }
   if (dice.chance(0.4)) {
     const float deviation = dice.uniform(0, 0.3F) * width_m;
@@ -558,6 +563,16 @@ void spoil_depth(Dice& dice, Scene& sight) {
   depth = cv::max(depth, 0);
 }
 
+/// As those have it who cut the rope out first: no depth around it, and often a ribbon's.
+void keep_depth_of_mask(Dice& dice, Scene& sight) {
+  sight.depth_m.setTo(0, sight.mask < 0.5);
+  if (dice.chance(0.5)) return;
+  const cv::Mat none = sight.depth_m <= 0;
+  const double reach_px = static_cast<double>(dice.uniform(0.5F, 1.5F)) * field::kRope_px;
+  sight.depth_m = smooth_where_known(sight.depth_m, reach_px);
+  sight.depth_m.setTo(0, none);
+}
+
 }  // namespace
 
 Sample sample_of(const Patch& patch, int size_px, std::uint64_t seed, std::uint64_t number,
@@ -580,7 +595,12 @@ Sample sample_of(const Patch& patch, int size_px, std::uint64_t seed, std::uint6
   if (alone || dice.chance(config.no_depth)) {
     sight.depth_m.setTo(0);
   } else {
-    spoil_depth(dice, sight);
+    if (config.level > 0 && dice.chance(config.level)) {
+      sight.depth_m.setTo(cv::mean(sight.depth_m, sight.depth_m > 0));
+    } else {
+      spoil_depth(dice, sight);
+    }
+    if (config.mask_depth > 0 && dice.chance(config.mask_depth)) keep_depth_of_mask(dice, sight);
   }
   Sample sample{mat::mat_of(field::input_of(sight_of(sight))), truth.field};
   // Beyond the image nothing is known, and nothing is asked.

@@ -20,9 +20,11 @@ struct SpoilConfig {
   double no_depth = 0.15;
   double mask_alone = 0.03;
   double grey = 0.25;
-  double flat = 0;   ///< one colour everywhere, and the camera's noise
-  double dark = 0;   ///< a few per cent of the light, and the camera's noise
-  double moved = 0;  ///< blurred along a line of up to two widths of the rope
+  double flat = 0;        ///< one colour everywhere, and the camera's noise
+  double dark = 0;        ///< a few per cent of the light, and the camera's noise
+  double moved = 0;       ///< blurred along a line of up to two widths of the rope
+  double level = 0;       ///< one depth everywhere, as who has photographs alone makes it up
+  double mask_depth = 0;  ///< depth on the mask alone, half of them without the rope's roundness
 };
 
 struct Sample {
