@@ -71,8 +71,9 @@ Result<Conditions> gather(const Frame& frame, const ReadConfig& config, Timings&
     if (*seen) return conditions;
   }
   Stopwatch rest;
-  auto paths = traced != nullptr ? Result<path::Traversals>(*traced)
-                                 : path::trace(frame, config.trace(conditions.cleaned));  // Sec. 3.3
+  auto paths = traced != nullptr
+                   ? Result<path::Traversals>(*traced)
+                   : path::trace(frame, config.trace(conditions.cleaned));  // Sec. 3.3
   if (traced == nullptr) rest.lap(timings.path_ms);
   if (!paths) return paths.error();
   const auto lifted = lift(*std::move(paths), frame, config, conditions);

@@ -23,6 +23,7 @@
 #include "evidence/mask_field.hpp"
 #include "field/strand_field.hpp"
 #include "flow/sampler.hpp"
+#include "gate/fitted.hpp"
 #include "gate/gate.hpp"
 #include "guard/guarded.hpp"
 #include "prior/prior.hpp"
@@ -41,6 +42,7 @@ struct FLOWDLO_HIDDEN Estimator::Impl {
   weights::Metadata metadata;
   estimator::DeviceSampler sampler;
   estimator::FieldNetworks networks;
+  std::optional<gate::Fitted> fitted;  // where the calibrated gate decides
   threads::Pool pool{config.threads};  // for what runs beside the model
   estimator::ReadingCosts reading_costs{};
   estimator::Cost model_cost{0};  // mask field and all
@@ -55,7 +57,7 @@ struct FLOWDLO_HIDDEN Estimator::Impl {
   Result<Estimate> estimate(const Frame& frame, const Hints& hints, Tensors* tensors,
                             const estimator::Budget& budget,
                             const path::Traversals* traced = nullptr);
-  [[nodiscard]] bool calibrated() const { return estimator::is_calibrated(config, metadata); }
+  [[nodiscard]] bool calibrated() const { return fitted.has_value(); }
   [[nodiscard]] std::optional<field::Axes> axes(const Frame& frame, float rope_width_px,
                                                 const estimator::Budget& budget, bool near_parts,
                                                 bool& left_out);
@@ -94,8 +96,10 @@ Result<std::unique_ptr<Estimator::Impl>> Estimator::Impl::create(const Config& w
   if (!sampler) return sampler.error();
   auto networks = estimator::open_field(config, location->field);
   if (!networks) return networks.error();
+  auto fitted = estimator::open_gate(config, *loaded->weights, networks->calibration);
+  if (!fitted) return fitted.error();
   auto impl = std::unique_ptr<Impl>(  // an aggregate, which Clang 14 makes by braces only
-      new Impl{config, metadata, *std::move(sampler), *std::move(networks)});
+      new Impl{config, metadata, *std::move(sampler), *std::move(networks), *std::move(fitted)});
   impl->fetch = std::move(fetch);
   if (config.budget_ms > 0) impl->learn_costs();
   return impl;
@@ -206,7 +210,8 @@ Result<Estimate> Estimator::Impl::estimate(const Frame& frame, const Hints& hint
 
   estimator::Stopwatch stage;
   const gate::DilatedMask mask(frame);
-  const estimator::Judge judge(calibrated(), hints, *conditions, frame, reading.rope_length_m,
+  const estimator::Judge judge(fitted ? &*fitted : nullptr, hints, *conditions, frame,
+                               reading.rope_length_m,
                                networks.refine ? &*networks.refine : nullptr);
   auto first = judge.of_first(traced != nullptr);
   if (!first) return first.error();

@@ -18,7 +18,7 @@ struct Judge::Chosen {
 
 Judge::Chosen Judge::choose(SecondLook look, const Sampled& sampled) const {
   Chosen chosen{.look = std::move(look)};
-  if (!calibrated_) {
+  if (fitted_ == nullptr) {
     chosen.returned =
         by_thesis(chosen.look.hypotheses, sampled.prediction, sampled.verdict, sampled.assigned);
     return chosen;
@@ -26,8 +26,8 @@ Judge::Chosen Judge::choose(SecondLook look, const Sampled& sampled) const {
   chosen.candidates =
       list_candidates(chosen.look, conditions_.paths.rope_width_px, sampled.prediction,
                       sampled.verdict.draws, sampled.assigned, frame_, rope_length_m_);
-  chosen.returned =
-      by_score(chosen.candidates, hints_, conditions_, frame_, rope_length_m_, chosen.look);
+  chosen.returned = by_score(chosen.candidates, *fitted_, hints_, conditions_, frame_,
+                             rope_length_m_, chosen.look);
   return chosen;
 }
 
@@ -50,7 +50,7 @@ Result<Judged> Judge::settle(Chosen chosen, const Sampled& sampled) const {
 Result<std::optional<Judged>> Judge::of_first(bool traced) const {
   const auto& first = conditions_.hypotheses;
   const bool clear = traced && confidence(first.front().evidence, lead(first)) >= kClear;
-  if (!calibrated_ || !(clear || conditions_.axes)) return std::optional<Judged>();
+  if (fitted_ == nullptr || !(clear || conditions_.axes)) return std::optional<Judged>();
   Chosen chosen = choose(first_look(conditions_, frame_), {});
   if (!clear && chosen.returned.confidence < kSure) return std::optional<Judged>();
   auto judged = settle(std::move(chosen), {});

@@ -13,6 +13,7 @@
 #include "flowdlo/estimate.hpp"
 #include "flowdlo/frame.hpp"
 #include "flowdlo/hints.hpp"
+#include "gate/fitted.hpp"
 #include "gate/gate.hpp"
 #include "refine/network.hpp"
 
@@ -46,11 +47,11 @@ struct Judged {
 /// As the gate of one estimator has it. What it is made of has to outlive it.
 class Judge {
  public:
-  /// `calibrated`: by the fitted score and the hints, else as the thesis, Eq. (3.33). `refine`: the
+  /// `fitted`: by the fitted score and the hints; null: as the thesis, Eq. (3.33). `refine`: the
   /// network that moves nodes; null: none does.
-  Judge(bool calibrated, const Hints& hints, const Conditions& conditions, const Frame& frame,
-        double rope_length_m, refine::Network* refine)
-      : calibrated_(calibrated),
+  Judge(const gate::Fitted* fitted, const Hints& hints, const Conditions& conditions,
+        const Frame& frame, double rope_length_m, refine::Network* refine)
+      : fitted_(fitted),
         hints_(hints),
         conditions_(conditions),
         frame_(frame),
@@ -71,7 +72,7 @@ class Judge {
   [[nodiscard]] Chosen choose(SecondLook look, const Sampled& sampled) const;
   [[nodiscard]] Result<Judged> settle(Chosen chosen, const Sampled& sampled) const;
 
-  const bool calibrated_;
+  const gate::Fitted* const fitted_;
   const Hints& hints_;
   const Conditions& conditions_;
   const Frame& frame_;

@@ -4,6 +4,8 @@
 #include <malloc.h>
 #endif
 
+#include <fmt/format.h>
+
 #include <memory>
 #include <utility>
 
@@ -59,6 +61,7 @@ Result<FieldNetworks> open_field(const Config& config, const weights::Place& bes
     networks.refine = *std::move(refine);
   }
   loaded->refine.reset();
+  networks.calibration = std::move(loaded->calibration);
   auto network =
       field::Network::create(std::make_shared<const weights::FieldWeights>(*std::move(loaded)),
                              cpu_back_end(config.threads).make_program);
@@ -85,17 +88,25 @@ weights::PriorKind prior_kind(const Config& config, const weights::Metadata& met
   return metadata.variant.prior_kind;
 }
 
-bool is_calibrated(const Config& config, const weights::Metadata& metadata) {
-  switch (config.gate) {
-    case GateChoice::kThesis:
-      return false;
-    case GateChoice::kCalibrated:
-      return true;
-    case GateChoice::kOfWeights:
-      break;
+Result<std::optional<gate::Fitted>> open_gate(const Config& config, const weights::Weights& model,
+                                              const std::optional<weights::Calibration>& of_field) {
+  const bool suits = model.calibration && model.metadata.trained &&
+                     prior_kind(config, model.metadata) == weights::PriorKind::kRefined;
+  const bool asked = config.gate == GateChoice::kCalibrated;
+  if (config.gate == GateChoice::kThesis || (!asked && !suits)) {
+    return std::optional<gate::Fitted>();
   }
-  return metadata.trained && metadata.variant.head_channels == 4 &&
-         metadata.variant.prior_kind == weights::PriorKind::kRefined;
+  if (!model.calibration) {
+    return Error{
+        ErrorCode::kBadWeights,
+        fmt::format("Estimator: expected weights that a calibrated gate was fitted to, got "
+                    "\"{}\" without a section \"calibration\"; fit one with flowdlo-lab "
+                    "gate-fit, or leave Config::gate to the weights",
+                    model.metadata.name)};
+  }
+  gate::Fitted fitted{gate::gate_weights(*model.calibration)};
+  if (of_field) fitted.to_field = gate::gate_weights(*of_field);
+  return std::optional(std::move(fitted));
 }
 
 }  // namespace flowdlo::estimator

@@ -7,7 +7,6 @@
 #include "estimator/confidence.hpp"
 #include "estimator/hints.hpp"
 #include "estimator/stayed.hpp"
-#include "gate/calibrated.hpp"
 
 namespace flowdlo::estimator {
 namespace {
@@ -44,9 +43,9 @@ Returned by_thesis(const std::vector<Hypothesis>& hypotheses, const flow::Predic
   return returned;
 }
 
-Returned by_score(const std::vector<gate::Candidate>& candidates, const Hints& hints,
-                  const Conditions& conditions, const Frame& frame, double rope_length_m,
-                  SecondLook& look) {
+Returned by_score(const std::vector<gate::Candidate>& candidates, const gate::Fitted& fitted,
+                  const Hints& hints, const Conditions& conditions, const Frame& frame,
+                  double rope_length_m, SecondLook& look) {
   gate::Beside beside{.log_prior = log_priors(candidates, hints, frame.intrinsics)};
   auto before = stayed(hints.previous, look.hypotheses, conditions, frame);
   if (before) {
@@ -54,8 +53,7 @@ Returned by_score(const std::vector<gate::Candidate>& candidates, const Hints& h
         guest_of(*before, candidates, look, conditions.paths.rope_width_px, frame, rope_length_m);
     beside.guest_log_prior = log_priors({*beside.guest}, hints, frame.intrinsics).front();
   }
-  const gate::Choice choice =
-      gate::choose_calibrated(candidates, gate::fitted_weights(candidates), beside);
+  const gate::Choice choice = gate::choose_calibrated(candidates, fitted.of(candidates), beside);
   Returned returned{.confidence = static_cast<float>(choice.probability),
                     .sigma_m = choice.sigma_m,
                     .switched = choice.switched};

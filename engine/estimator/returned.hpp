@@ -12,6 +12,7 @@
 #include "flowdlo/frame.hpp"
 #include "flowdlo/hints.hpp"
 #include "gate/candidate.hpp"
+#include "gate/fitted.hpp"
 #include "gate/gate.hpp"
 
 namespace flowdlo::estimator {
@@ -32,7 +33,8 @@ struct Returned {
 
 /// What the fitted score and the hints prefer among the candidates, `list_candidates`. Where that
 /// is the rope as it was in the frame before, it joins the hypotheses of `look`.
-[[nodiscard]] Returned by_score(const std::vector<gate::Candidate>& candidates, const Hints& hints,
+[[nodiscard]] Returned by_score(const std::vector<gate::Candidate>& candidates,
+                                const gate::Fitted& fitted, const Hints& hints,
                                 const Conditions& conditions, const Frame& frame,
                                 double rope_length_m, SecondLook& look);
 

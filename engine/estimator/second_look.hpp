@@ -106,7 +106,7 @@ class Rereading {
   const Conditions& conditions_;
   const Frame frame_;
   const ReadConfig config_;
-  double rope_px_ = 0;  // of the rope, magnified as the network sees it; 0 without limits
+  double rope_px_ = 0;       // of the rope, magnified as the network sees it; 0 without limits
   std::vector<Read> reads_;  // in this order
   std::optional<field::Axes> axes_;
   threads::Beside beside_;  // last: it ends first

@@ -99,13 +99,4 @@ Choice choose_calibrated(std::span<const Candidate> frames_own, const GateWeight
   return choice;
 }
 
-const GateWeights& fitted_weights(std::span<const Candidate> candidates) {
-  const bool seen = !candidates.empty() && candidates.front().axes.known;
-  return seen ? fitted_to_field() : fitted_to_mask();
-}
-
-Choice choose_calibrated(std::span<const Candidate> candidates) {
-  return choose_calibrated(candidates, fitted_weights(candidates));
-}
-
 }  // namespace flowdlo::gate

@@ -20,24 +20,16 @@ namespace flowdlo::gate {
 /// A mean index error below this, Eq. (4.1), is what the probability promises.
 inline constexpr double kCloseError_m = 0.01;
 
-/// What flowdlo-lab gate-fit fits. Every model has its own.
+/// What flowdlo-lab gate-fit fits, for each model and each strand field: gate/fitted.hpp.
 struct GateWeights {
   std::array<double, kDrawFeatures> draw{};
-  double draw_margin = 0;                      ///< score above which a draw replaces its prior
+  double draw_margin = 0;                          ///< score above which a draw replaces its prior
   Network<kHypothesisFeatures, 1, 32> hypothesis;  ///< score of what a hypothesis would return
   double hypothesis_margin = 0;  ///< score by which a runner-up has to beat the best hypothesis
   Network<kClosenessFeatures, 1> closeness;  ///< log odds that the winner is close
   Network<kNodeFeatures, NodeError::kNumbers, 16> node_error;
   double sigma_share = 0;  ///< probability of being off by less than two sigma_m
 };
-
-/// Of the weights that come with FlowDLO: fitted to frames where the mask alone was read, and to
-/// those where a strand field was asked as well.
-[[nodiscard]] const GateWeights& fitted_to_mask();
-[[nodiscard]] const GateWeights& fitted_to_field();
-
-/// Those that the candidates of a frame ask for.
-[[nodiscard]] const GateWeights& fitted_weights(std::span<const Candidate> candidates);
 
 struct Choice {
   std::size_t chosen = 0;  ///< index among the candidates; ties go to the lower one
@@ -79,6 +71,5 @@ struct Beside {
 /// hypothesis. The guest's index is the number of candidates.
 [[nodiscard]] Choice choose_calibrated(std::span<const Candidate> candidates,
                                        const GateWeights& weights, const Beside& beside = {});
-[[nodiscard]] Choice choose_calibrated(std::span<const Candidate> candidates);
 
 }  // namespace flowdlo::gate

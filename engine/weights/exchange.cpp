@@ -4,6 +4,7 @@
 #include "files/whole_file.hpp"
 #include "flowdlo/weights.hpp"
 #include "guard/guarded.hpp"
+#include "weights/calibration.hpp"
 #include "weights/fdw.hpp"
 #include "weights/file.hpp"
 #include "weights/metadata.hpp"
@@ -44,10 +45,20 @@ Result<void> exported(const std::filesystem::path& weights, const std::filesyste
     view.bytes = encoded.back();
     stored.push_back(std::move(view));
   }
+  ws::StoredCalibration calibration;
+  if (file->weights.calibration) {
+    calibration = ws::encode_calibration(*file->weights.calibration, faults);
+    for (auto& tensor : calibration.tensors) stored.push_back(tensor);
+    for (auto& bytes : calibration.bytes) encoded.push_back(bytes);
+  }
   if (!faults.empty()) return ws::bad_weights(weights, faults);
 
   auto fields = ws::to_fields(file->weights.metadata);
   fields["sha256"] = file->sha256;
+  if (file->weights.calibration) {
+    ws::add_head({ws::kCalibrationVersion, file->weights.calibration->notes, calibration.sha256},
+                 fields);
+  }
   const std::string header = ws::safetensors_header(fields, stored);
   const auto* header_bytes = reinterpret_cast<const std::uint8_t*>(header.data());
   std::vector<std::span<const std::uint8_t>> parts{{header_bytes, header.size()}};
@@ -60,10 +71,11 @@ Result<void> exported(const std::filesystem::path& weights, const std::filesyste
 Result<ws::FdwFile> ws::parse_exchanged(std::span<const std::uint8_t> bytes,
                                         const std::filesystem::path& file) {
   std::vector<std::string> faults;
-  const auto parsed = parse_safetensors(bytes, faults);
+  auto parsed = parse_safetensors(bytes, faults);
   if (!faults.empty()) return bad_weights(file, faults);
 
   FdwFile result;
+  result.weights.calibration = take_calibration(parsed.metadata, parsed.tensors, faults);
   result.weights.metadata = from_fields(parsed.metadata, faults);
   for (auto& fault : weights::faults(result.weights.metadata)) faults.push_back(std::move(fault));
   const Variant variant = usable(result.weights.metadata.variant);

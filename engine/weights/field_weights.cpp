@@ -12,6 +12,7 @@
 #include <map>
 
 #include "files/whole_file.hpp"
+#include "weights/calibration.hpp"
 #include "weights/fdw.hpp"
 #include "weights/file.hpp"
 #include "weights/safetensors.hpp"
@@ -115,7 +116,7 @@ Result<FieldWeights> load_field(const Place& place) {
 Result<FieldWeights> parse_field(std::span<const std::uint8_t> bytes,
                                  const std::filesystem::path& file) {
   std::vector<std::string> faults;
-  const auto parsed = parse_safetensors(bytes, faults);
+  auto parsed = parse_safetensors(bytes, faults);
   if (!faults.empty()) return bad_weights(file, faults);
   FieldWeights weights;
   weights.name = text_of(parsed.metadata, "name", faults);
@@ -126,6 +127,7 @@ Result<FieldWeights> parse_field(std::span<const std::uint8_t> bytes,
                    channels_of(parsed.metadata, "coarse", kMostCoarse, faults)};
   const bool refines = refines_of(parsed.metadata, faults);
   if (refines) weights.refine.emplace().notes = text_of(parsed.metadata, "refine_notes", faults);
+  weights.calibration = take_calibration(parsed.metadata, parsed.tensors, faults);
   if (!faults.empty()) return bad_weights(file, faults);
   const auto manifest = whole_manifest(weights.sizes, refines);
   const auto matched = match(parsed.tensors, manifest, kReadable, faults);
@@ -183,6 +185,14 @@ Result<void> save_field(const FieldWeights& weights, const std::filesystem::path
   if (weights.refine) {
     fields.emplace("refine", kRefineVersion);
     fields.emplace("refine_notes", weights.refine->notes);
+  }
+  StoredCalibration calibration;
+  if (weights.calibration) {
+    calibration = encode_calibration(*weights.calibration, faults);
+    if (!faults.empty()) return bad_weights(file, faults);
+    add_head({kCalibrationVersion, weights.calibration->notes, calibration.sha256}, fields);
+    stored.insert(stored.end(), calibration.tensors.begin(), calibration.tensors.end());
+    encoded.insert(encoded.end(), calibration.bytes.begin(), calibration.bytes.end());
   }
   const std::string header = safetensors_header(fields, stored);
   const auto* header_bytes = reinterpret_cast<const std::uint8_t*>(header.data());

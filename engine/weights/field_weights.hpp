@@ -36,8 +36,9 @@ struct FieldWeights {
   std::string training_data;  ///< "none" for seeded noise
   std::string notes;          ///< free text: training command, device, validation table
   FieldSizes sizes;
-  std::vector<Tensor> tensors;            ///< exactly field_manifest()'s, in its order
-  std::optional<RefineWeights> refine{};  ///< where the file holds that network as well
+  std::vector<Tensor> tensors;               ///< exactly field_manifest()'s, in its order
+  std::optional<RefineWeights> refine{};     ///< where the file holds that network as well
+  std::optional<Calibration> calibration{};  ///< and what the gate was fitted to beside this field
 
   /// The tensor of that name. It must be one of the manifest's.
   [[nodiscard]] const Tensor& at(std::string_view name) const;

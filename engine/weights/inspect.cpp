@@ -1,6 +1,11 @@
 // What a weights file holds, for people.
+#include <fmt/format.h>
+
+#include <string>
+
 #include "flowdlo/weights.hpp"
 #include "guard/guarded.hpp"
+#include "weights/calibration.hpp"
 #include "weights/fdw.hpp"
 #include "weights/location.hpp"
 #include "weights/metadata.hpp"
@@ -21,6 +26,10 @@ Result<WeightsInfo> inspected(const std::filesystem::path& file) {
   WeightsInfo info;
   info.metadata = weights::to_fields(read->weights.metadata);
   info.sha256 = read->sha256;
+  if (const auto& calibration = read->weights.calibration) {
+    info.metadata[std::string(weights::kCalibrationName)] = weights::kCalibrationVersion;
+    info.metadata[fmt::format("{}_notes", weights::kCalibrationName)] = calibration->notes;
+  }
   for (std::size_t i = 0; i < read->types.size(); ++i) {
     weights::Tensor& tensor = read->weights.tensors[i];
     info.parameters += static_cast<std::int64_t>(tensor.values.size());

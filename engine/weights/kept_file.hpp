@@ -16,7 +16,7 @@ struct Loaded;
 
 class KeptFile {
  public:
-  /// The same as `load` gave.
+  /// The same model as `load` gave, without the sections beside it.
   [[nodiscard]] Weights decoded() const;
 
  private:

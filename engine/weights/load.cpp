@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "flowdlo_weights_generated.h"
+#include "weights/calibration.hpp"
 #include "weights/fdw.hpp"
 #include "weights/file.hpp"
 #include "weights/kept_file.hpp"
@@ -16,7 +17,7 @@ namespace {
 
 constexpr std::array kStorable{DType::kF32, DType::kF16};
 
-// A valid file nests two deep and has one table for each tensor, about a hundred.
+// A valid file nests three deep and has one table for each tensor, about a hundred.
 constexpr flatbuffers::uoffset_t kMostNesting = 8;
 constexpr flatbuffers::uoffset_t kMostTables = 1024;
 constexpr flatbuffers::uoffset_t kMostNameBytes = 256;
@@ -100,10 +101,32 @@ StoredTensor stored_tensor(const fdw::Tensor& tensor) {
   return result;
 }
 
-std::vector<StoredTensor> stored_tensors(const fdw::Weights& root) {
+/// Of a file, or of one of its sections.
+template <class Table>
+std::vector<StoredTensor> stored_tensors(const Table& table) {
   std::vector<StoredTensor> stored;
-  for (const fdw::Tensor* tensor : *root.tensors()) stored.push_back(stored_tensor(*tensor));
+  for (const fdw::Tensor* tensor : *table.tensors()) stored.push_back(stored_tensor(*tensor));
   return stored;
+}
+
+/// Unknown sections, and one that comes twice, go to `faults`.
+std::optional<Calibration> calibration_in(const fdw::Weights& root,
+                                          std::vector<std::string>& faults) {
+  std::optional<Calibration> calibration;
+  if (root.sections() == nullptr) return calibration;
+  for (const fdw::Section* section : *root.sections()) {
+    if (calibration || section->name()->string_view() != kCalibrationName) {
+      faults.push_back(fmt::format("sections: expected at most one, \"{}\", got {}{}",
+                                   kCalibrationName, in_quotes(section->name()->string_view()),
+                                   calibration ? " beside it" : ""));
+      break;  // a thousand of them may share one name
+    }
+    calibration =
+        decode_calibration({section->version()->string_view(), section->notes()->string_view(),
+                            section->sha256()->string_view()},
+                           stored_tensors(*section), faults);
+  }
+  return calibration;
 }
 
 }  // namespace
@@ -112,7 +135,7 @@ Weights KeptFile::decoded() const {
   std::vector<std::string> faults;  // none: they were looked for when the file was read
   const auto stored = stored_tensors(*fdw::GetWeights(bytes_.data()));
   const auto matched = match(stored, manifest(metadata_.variant), kStorable, faults);
-  return {metadata_, decode(matched, manifest(metadata_.variant), faults)};
+  return {metadata_, decode(matched, manifest(metadata_.variant), faults), std::nullopt};
 }
 
 Result<FdwFile> parse_fdw(std::span<const std::uint8_t> bytes, const std::filesystem::path& file) {
@@ -135,6 +158,7 @@ Result<FdwFile> parse_fdw(std::span<const std::uint8_t> bytes, const std::filesy
                                  in_quotes(root.metadata()->sha256()->string_view()),
                                  result.sha256));
   }
+  result.weights.calibration = calibration_in(root, faults);
   if (!faults.empty()) return bad_weights(file, faults);
   for (const StoredTensor* tensor : matched) {
     result.types.push_back(tensor->dtype == DType::kF16 ? StorageType::kF16 : StorageType::kF32);

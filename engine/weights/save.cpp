@@ -7,6 +7,7 @@
 
 #include "files/whole_file.hpp"
 #include "flowdlo_weights_generated.h"
+#include "weights/calibration.hpp"
 #include "weights/fdw.hpp"
 #include "weights/file.hpp"
 #include "weights/half.hpp"
@@ -54,6 +55,22 @@ flatbuffers::Offset<fdw::Tensor> add_tensor(flatbuffers::FlatBufferBuilder& buil
   return fdw::CreateTensor(builder, name, shape, dtype, data);
 }
 
+flatbuffers::Offset<fdw::Section> add_calibration(flatbuffers::FlatBufferBuilder& builder,
+                                                  const Calibration& calibration,
+                                                  const StoredCalibration& stored) {
+  std::vector<flatbuffers::Offset<fdw::Tensor>> tensors;
+  for (std::size_t i = 0; i < stored.bytes.size(); ++i) {
+    tensors.push_back(
+        add_tensor(builder, calibration.tensors[i], StorageType::kF32, stored.bytes[i]));
+  }
+  const auto name = builder.CreateString(kCalibrationName);
+  const auto version = builder.CreateString(kCalibrationVersion);
+  const auto notes = builder.CreateString(calibration.notes);
+  const auto list = builder.CreateVector(tensors);
+  return fdw::CreateSection(builder, name, version, notes, list,
+                            builder.CreateString(stored.sha256));
+}
+
 }  // namespace
 
 std::vector<std::uint8_t> encode(const Tensor& tensor, StorageType type,
@@ -92,6 +109,8 @@ Result<void> write_fdw(const Weights& weights, const std::vector<StorageType>& t
     sha.update(encoded.back());
     total += encoded.back().size();
   }
+  StoredCalibration calibration;
+  if (weights.calibration) calibration = encode_calibration(*weights.calibration, list);
   if (!list.empty()) return bad_weights(file, list);
 
   constexpr std::size_t kBesideData = std::size_t{64} << 10U;
@@ -102,7 +121,13 @@ Result<void> write_fdw(const Weights& weights, const std::vector<StorageType>& t
   }
   const auto metadata = add_metadata(builder, weights.metadata, sha.finish());
   const auto list_of_tensors = builder.CreateVector(tensors);
-  fdw::FinishWeightsBuffer(builder, fdw::CreateWeights(builder, metadata, list_of_tensors));
+  flatbuffers::Offset<flatbuffers::Vector<flatbuffers::Offset<fdw::Section>>> sections;
+  if (weights.calibration) {
+    sections = builder.CreateVector(
+        std::vector{add_calibration(builder, *weights.calibration, calibration)});
+  }
+  fdw::FinishWeightsBuffer(builder,
+                           fdw::CreateWeights(builder, metadata, list_of_tensors, sections));
   return files::write_file(file, {{builder.GetBufferPointer(), builder.GetSize()}});
 }
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -39,12 +40,19 @@ struct Expected {
   std::vector<int> shape;
 };
 
+/// What the calibrated gate was fitted to: weights/calibration.hpp.
+struct Calibration {
+  std::string notes;            ///< free text: command, scenes
+  std::vector<Tensor> tensors;  ///< exactly calibration_manifest()'s, in its order
+};
+
 /// Names and shapes of a variant's tensors, in the order of spec section 6.
 [[nodiscard]] std::vector<Expected> manifest(const Variant& variant);
 
 struct Weights {
   Metadata metadata;
-  std::vector<Tensor> tensors;  ///< exactly the manifest's, in its order
+  std::vector<Tensor> tensors;               ///< exactly the manifest's, in its order
+  std::optional<Calibration> calibration{};  ///< where the file has that section
 
   /// The tensor of that name. It must be one of the manifest's.
   [[nodiscard]] const Tensor& at(std::string_view name) const;

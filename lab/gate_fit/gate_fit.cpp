@@ -1,6 +1,6 @@
-// flowdlo-lab gate-fit fit: fits the calibrated gate to a model on synthetic training frames and
-// writes engine/gate/fitted_to_mask.cpp, or with a strand field fitted_to_field.cpp. flowdlo-lab
-// gate-fit report: what the gate is worth on frames that it was not fitted on.
+// flowdlo-lab gate-fit fit: fits the calibrated gate on synthetic training frames and writes the
+// model's weights, or the strand field's, with it. flowdlo-lab gate-fit report: what the gate is
+// worth on frames that it was not fitted on.
 #include <fmt/format.h>
 
 #include <CLI/App.hpp>
@@ -15,7 +15,7 @@
 #include "estimator/device_choice.hpp"
 #include "field/network.hpp"
 #include "flowdlo/weights.hpp"
-#include "gate_fit/constants.hpp"
+#include "gate/fitted.hpp"
 #include "gate_fit/fit.hpp"
 #include "gate_fit/report.hpp"
 #include "gate_fit/sample.hpp"
@@ -25,6 +25,7 @@
 #include "refine/network.hpp"
 #include "survey/failed.hpp"
 #include "survey/in_parallel.hpp"
+#include "weights/fdw.hpp"
 #include "weights/field_weights.hpp"
 #include "weights/weights.hpp"
 
@@ -48,7 +49,7 @@ struct Options {
   std::string weights;
   std::string field;
   std::string cache;
-  std::string constants;
+  std::string out;
   std::string split = "wide";
   std::string part = "training";
   int scenes = 1000;
@@ -59,6 +60,7 @@ struct Options {
   int steps = 10;
   bool quiet = false;
   bool keep_choice = false;
+  bool keep_draws = false;
   bool unrefined = false;
 };
 
@@ -79,6 +81,7 @@ struct Model {
   std::shared_ptr<const flowdlo::weights::Weights> weights;
   std::optional<flowdlo::flow::Sampler> sampler;                ///< none: priors alone
   std::shared_ptr<const flowdlo::weights::FieldWeights> field;  ///< null: none
+  std::optional<flowdlo::gate::Fitted> fitted;                  ///< none: nothing is sure
 };
 
 Result<Model> open_model(const Options& options, bool with_sampler) {
@@ -90,6 +93,12 @@ Result<Model> open_model(const Options& options, bool with_sampler) {
     auto field = flowdlo::weights::load_field(options.field);
     if (!field) return field.error();
     model.field = std::make_shared<const flowdlo::weights::FieldWeights>(*std::move(field));
+  }
+  if (model.weights->calibration) {
+    model.fitted.emplace(flowdlo::gate::gate_weights(*model.weights->calibration));
+    if (model.field && model.field->calibration) {
+      model.fitted->to_field = flowdlo::gate::gate_weights(*model.field->calibration);
+    }
   }
   if (!with_sampler) return model;
   const auto back_end = flowdlo::estimator::cpu_back_end(options.threads);
@@ -147,7 +156,8 @@ Measured measured_one(const Options& options, const Batch& batch, Model& model, 
   const double length_m = known_length_m(batch.origin, index, scene->meta.length_m);
   return lab::measure(*scene, model.sampler ? &*model.sampler : nullptr,
                       networks.field ? &*networks.field : nullptr,
-                      networks.refine ? &*networks.refine : nullptr, options.draws, kind, length_m);
+                      networks.refine ? &*networks.refine : nullptr,
+                      model.fitted ? &*model.fitted : nullptr, options.draws, kind, length_m);
 }
 
 /// Scenes `done` and later; several at a time where there is no model, which takes threads itself.
@@ -247,6 +257,40 @@ void keep_seen(Samples& samples) {
       samples, [](const lab::GateSample& sample) { return !sample.candidates.front().axes.known; });
 }
 
+Error no_calibration(const std::string& file) {
+  return {
+      flowdlo::ErrorCode::kBadWeights,
+      fmt::format("{}: expected weights with a section \"calibration\", got none; fit one first, "
+                  "without --keep-choice and --keep-draws",
+                  file)};
+}
+
+/// What the weights that are fitted to hold so far: the field's, or without one the model's.
+Result<std::optional<flowdlo::weights::Calibration>> calibration_before(const Options& options) {
+  if (options.field.empty()) {
+    auto model = flowdlo::weights::load(options.weights);
+    if (!model) return model.error();
+    return std::move(model->calibration);
+  }
+  auto field = flowdlo::weights::load_field(options.field);
+  if (!field) return field.error();
+  return std::move(field->calibration);
+}
+
+/// The same weights with another calibration, as options.out.
+Result<void> write_fitted(const Options& options, flowdlo::weights::Calibration calibration) {
+  if (options.field.empty()) {
+    auto model = flowdlo::weights::read_fdw(options.weights);
+    if (!model) return model.error();
+    model->weights.calibration = std::move(calibration);
+    return flowdlo::weights::write_fdw(model->weights, model->types, options.out);
+  }
+  auto field = flowdlo::weights::load_field(options.field);
+  if (!field) return field.error();
+  field->calibration = std::move(calibration);
+  return flowdlo::weights::save_field(*field, options.out);
+}
+
 int fit(const Options& options) {
   auto samples = with_model(options);
   if (!samples) return failed(samples.error());
@@ -260,22 +304,27 @@ int fit(const Options& options) {
   }
   Samples all = *samples;
   all.insert(all.end(), more->begin(), more->end());
-  const auto& compiled = seen ? flowdlo::gate::fitted_to_field() : flowdlo::gate::fitted_to_mask();
-  const auto weights = lab::fit_gate(all, *clean, options.keep_choice ? &compiled : nullptr);
-  const auto info = flowdlo::inspect_weights(options.weights);
-  const std::string origin = fmt::format(
-      "{} on {} scenes of {} {} from {},\n"
-      "// and {} and {} of thesis without a model; weights {}...",
-      options.keep_choice ? "Choice kept; confidence and sigma_m fitted" : "Fitted",
-      samples->size(), options.split, options.part, options.first, more->size(), clean->size(),
-      info ? info->sha256.substr(0, 16) : "unknown");
-  const std::string text =
-      lab::constants_text(weights, seen ? "fitted_to_field" : "fitted_to_mask", origin);
-  if (options.constants.empty()) {
-    fmt::print("{}", text);
-  } else if (auto written = lab::write_text(options.constants, text); !written) {
-    return failed(written.error());
+  const auto before = calibration_before(options);
+  if (!before) return failed(before.error());
+  const std::optional<flowdlo::gate::GateWeights> kept =
+      *before ? std::optional(flowdlo::gate::gate_weights(**before)) : std::nullopt;
+  if (!kept && (options.keep_choice || options.keep_draws)) {
+    return failed(no_calibration(seen ? options.field : options.weights));
   }
+  auto weights = lab::fit_gate(all, *clean, options.keep_choice ? &*kept : nullptr);
+  if (options.keep_draws) {
+    weights.draw = kept->draw;
+    weights.draw_margin = kept->draw_margin;
+  }
+  const auto info = flowdlo::inspect_weights(options.weights);
+  const std::string notes = fmt::format(
+      "{}{} on {} scenes of {} {} from {}, and {} and {} of thesis without a model; weights {}...",
+      options.keep_choice ? "choice kept; confidence and sigma_m fitted" : "fitted",
+      options.keep_draws ? ", weights of draws kept," : "", samples->size(), options.split,
+      options.part, options.first, more->size(), clean->size(),
+      info ? info->sha256.substr(0, 16) : "unknown");
+  const auto written = write_fitted(options, flowdlo::gate::calibration_of(weights, notes));
+  if (!written) return failed(written.error());
   fmt::print(stderr, "{}",
              lab::report(
                  *samples, [&](auto) -> const auto& { return weights; }));
@@ -283,9 +332,13 @@ int fit(const Options& options) {
 }
 
 int report(const Options& options) {
+  const auto model = open_model(options, false);
+  if (!model) return failed(model.error());
+  if (!model->fitted) return failed(no_calibration(options.weights));
   const auto samples = with_model(options);
   if (!samples) return failed(samples.error());
-  fmt::print("{}", lab::report(*samples, flowdlo::gate::fitted_weights));
+  fmt::print("{}", lab::report(
+                       *samples, [&](auto of) -> const auto& { return model->fitted->of(of); }));
   return 0;
 }
 
@@ -337,10 +390,17 @@ void add_gate_fit(CLI::App& program, support::ExitCode& exit_code) {
                    "Scenes beyond those, for what does not depend on the model; quick")
       ->check(CLI::Range(0, 1000000))
       ->capture_default_str();
-  fit_command->add_option("--constants", fitting->constants, "Write them to FILE, not to stdout")
+  fit_command
+      ->add_option(
+          "--out", fitting->out,
+          "The weights with what was fitted: a .safetensors where --field is given, else a "
+          ".fdw")
+      ->required()
       ->type_name("FILE");
   fit_command->add_flag("--keep-choice", fitting->keep_choice,
-                        "Fit confidence and sigma_m alone, to what the compiled constants choose");
+                        "Fit confidence and sigma_m alone, to what those weights choose so far");
+  fit_command->add_flag("--keep-draws", fitting->keep_draws,
+                        "Weigh draws as those weights do so far");
   support::set_action(*fit_command, exit_code, [fitting] { return ::fit(*fitting); });
 
   auto reporting = std::make_shared<Options>();
@@ -348,7 +408,7 @@ void add_gate_fit(CLI::App& program, support::ExitCode& exit_code) {
   reporting->first = 0;
   reporting->scenes = 300;
   auto* report_command =
-      support::add_command(app, "report", "What the compiled constants are worth");
+      support::add_command(app, "report", "What the gate of the weights is worth");
   add_options(*report_command, *reporting);
   report_command->add_option("--part", reporting->part, "training or validation")
       ->check(CLI::IsMember({"training", "validation"}))

@@ -152,7 +152,8 @@ NetworkWeights fit_mean_of_networks(NetworkTask task, int count) {
   all.straight.assign(each.front().straight.size(), 0);
   for (const NetworkWeights& one : each) {
     all.hidden.insert(all.hidden.end(), one.hidden.begin(), one.hidden.end());
-    for (std::size_t k = 0; k < all.straight.size(); ++k) all.straight[k] += one.straight[k] / count;
+    for (std::size_t k = 0; k < all.straight.size(); ++k)
+      all.straight[k] += one.straight[k] / count;
   }
   for (std::size_t output = 0; output < task.outputs; ++output) {
     for (const NetworkWeights& one : each) {

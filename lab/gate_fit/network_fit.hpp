@@ -23,7 +23,7 @@ struct NetworkTask {
   std::size_t inputs = 0;  ///< features of a row; the first of each is one
   std::size_t outputs = 0;
   std::size_t hidden = 8;
-  std::uint64_t seed = 1;       ///< of the weights that the descent sets out from
+  std::uint64_t seed = 1;      ///< of the weights that the descent sets out from
   std::vector<double> rows{};  ///< [rows, inputs]
   std::vector<double> start;   ///< [outputs] what is said of every row at first
   double ridge = 0;            ///< penalty of squared weights of standardised features, a row

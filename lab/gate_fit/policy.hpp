@@ -19,8 +19,8 @@ struct Group {
 [[nodiscard]] std::vector<double> fit_policy(const std::vector<Group>& groups,
                                              std::vector<double> start, double ridge);
 
-/// The same of the mean of `networks` with one output each. `ridge` is that of NetworkTask; the first
-/// feature of each row is one. Expects at least one group.
+/// The same of the mean of `networks` with one output each. `ridge` is that of NetworkTask; the
+/// first feature of each row is one. Expects at least one group.
 [[nodiscard]] NetworkWeights fit_policy_network(const std::vector<Group>& groups, double ridge,
                                                 int steps, int networks);
 

@@ -47,8 +47,9 @@ std::optional<Drawn> draw(const Frame& frame, const estimator::Conditions& condi
 }  // namespace
 
 std::optional<GateSample> measure(const synth::SyntheticFrame& scene, flow::Sampler* sampler,
-                                  field::Network* field, refine::Network* refine, int draws,
-                                  weights::PriorKind kind, double rope_length_m) {
+                                  field::Network* field, refine::Network* refine,
+                                  const gate::Fitted* fitted, int draws, weights::PriorKind kind,
+                                  double rope_length_m) {
   const Frame frame = scene.frame();
   Timings timings;
   const estimator::ReadConfig reading{kind, rope_length_m};
@@ -56,7 +57,7 @@ std::optional<GateSample> measure(const synth::SyntheticFrame& scene, flow::Samp
       estimator::gather(frame, reading, timings, nullptr, estimator::seen_by(field, frame));
   if (!conditions) return std::nullopt;
   const Hints none;
-  const estimator::Judge judge(true, none, *conditions, frame, rope_length_m, refine);
+  const estimator::Judge judge(fitted, none, *conditions, frame, rope_length_m, refine);
   const auto first = judge.of_first(false);
   if (!first) return std::nullopt;
   const auto drawn = draw(frame, *conditions, sampler, draws);

@@ -10,6 +10,7 @@
 #include "field/network.hpp"
 #include "flow/sampler.hpp"
 #include "gate/candidate.hpp"
+#include "gate/fitted.hpp"
 #include "refine/network.hpp"
 #include "synth/synthetic_frame.hpp"
 #include "weights/variant.hpp"
@@ -33,11 +34,13 @@ struct GateSample {
 };
 
 /// Nothing where the engine finds no path or the device fails. Priors alone where `sampler` is
-/// null, without a strand field where `field` is, nodes unrefined where `refine` is.
-/// `rope_length_m` 0: unknown.
+/// null, without a strand field where `field` is, nodes unrefined where `refine` is. Where `fitted`
+/// is sure of the first reading, that is all there is; null: it never is. `rope_length_m` 0:
+/// unknown.
 [[nodiscard]] std::optional<GateSample> measure(const synth::SyntheticFrame& scene,
                                                 flow::Sampler* sampler, field::Network* field,
-                                                refine::Network* refine, int draws,
-                                                weights::PriorKind kind, double rope_length_m);
+                                                refine::Network* refine, const gate::Fitted* fitted,
+                                                int draws, weights::PriorKind kind,
+                                                double rope_length_m);
 
 }  // namespace flowdlo::lab

@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "gate_fit/constants.hpp"
+#include "files/whole_file.hpp"
 
 namespace flowdlo::lab {
 namespace {
@@ -148,7 +148,7 @@ Result<void> write_samples(const std::filesystem::path& file, const SampleOrigin
                            const SampleFile& content) {
   std::string text = Json{{"origin", to_json(origin)}, {"scenes", content.scenes}}.dump() + '\n';
   for (const GateSample& sample : content.samples) text += to_json(sample).dump() + '\n';
-  return write_text(file, text);
+  return files::write_file(file, text);
 }
 
 }  // namespace flowdlo::lab

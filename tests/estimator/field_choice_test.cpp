@@ -5,6 +5,8 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <utility>
+#include <vector>
 
 #include "../frame/temporary_folder.hpp"
 #include "flowdlo/estimator.hpp"
@@ -77,13 +79,24 @@ TEST(FieldChoice, AClearFrameIsReadOnceWithItAndHasTheSameNodesWithoutIt) {
   }
 }
 
-TEST(FieldChoice, TheTurnsOfACoilThatTheMaskMergesAreToldApartWithIt) {
+TEST(FieldChoice, StrandsThatTheMaskMergesAreToldApartWithIt) {
   Config config = small(FLOWDLO_DEFAULT_WEIGHTS);
   config.quality = Quality::kFast;
   auto estimator = Estimator::create(config);
   ASSERT_TRUE(estimator);
-  for (const std::uint64_t seed : {1000, 1007, 1010, 1014}) {  // the mask alone is wrong in each
-    const lab::Scene scene = lab::make_scene(lab::Kind::kCoil, seed);
+  const auto coil = lab::Kind::kCoil;
+  const auto touching = lab::Kind::kTouching;
+  for (const auto& [kind, seed] : std::vector<std::pair<lab::Kind, std::uint64_t>>{
+           // The mask alone is wrong in each of the coils.
+           {coil, 1000},
+           {coil, 1007},
+           {coil, 1010},
+           {coil, 1014},
+           {touching, 1000},
+           {touching, 1001},
+           {touching, 1002},
+           {touching, 1003}}) {
+    const lab::Scene scene = lab::make_scene(kind, seed);
     const auto estimate = estimator->estimate(scene.frame());
     ASSERT_TRUE(estimate) << seed;
     Centerline backwards = scene.truth;

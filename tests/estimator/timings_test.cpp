@@ -19,9 +19,9 @@ double others_ms(const Timings& timings) {
          timings.mask_field_ms + timings.model_ms + timings.gate_ms;
 }
 
-/// Of a frame that leaves the strand field in doubt, so that it is read again: of eight calls, the one whose
-/// stages account best for its time, as a busy machine may stop a thread between two readings of
-/// the clock.
+/// Of a frame that leaves the strand field in doubt, so that it is read again: of eight calls, the
+/// one whose stages account best for its time, as a busy machine may stop a thread between two
+/// readings of the clock.
 Timings timings_of(int threads) {
   Config config{.weights = FLOWDLO_WEIGHTS,
                 .device = "cpu",

@@ -5,8 +5,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <limits>
 #include <vector>
+
+#include "gate/fitted.hpp"
+#include "weights/field_weights.hpp"
+#include "weights/weights.hpp"
 
 namespace flowdlo::gate {
 namespace {
@@ -56,10 +61,19 @@ GateWeights by_recall() {
   return weights;
 }
 
+/// Of the shipped weights: to frames whose mask alone is read, and to those that the field saw.
+GateWeights shipped_for_mask() {
+  return gate_weights(*weights::load(FLOWDLO_DEFAULT_WEIGHTS)->calibration);
+}
+GateWeights shipped_for_field() {
+  const auto field =
+      std::filesystem::path(FLOWDLO_DEFAULT_WEIGHTS).parent_path() / "field.safetensors";
+  return gate_weights(*weights::load_field(field)->calibration);
+}
+
 TEST(CalibratedGate, APriorAloneIsReturned) {
   const std::vector candidates{straight(0)};
   EXPECT_EQ(choose_calibrated(candidates, by_recall()).chosen, 0U);
-  EXPECT_EQ(choose_calibrated(candidates).chosen, 0U);
 }
 
 TEST(CalibratedGate, ADrawThatExplainsMoreReplacesItsPrior) {
@@ -184,7 +198,7 @@ TEST(CalibratedGate, AnswersAreFiniteWhateverTheCandidate) {
   lost.sigma_m.fill(nothing);
   lost.radius_m = nothing;
   lost.tube.depth_bias = nothing;
-  const Choice choice = choose_calibrated(std::vector{lost, lost});
+  const Choice choice = choose_calibrated(std::vector{lost, lost}, shipped_for_mask());
   EXPECT_EQ(choice.chosen, 0U);
   EXPECT_GE(choice.probability, 0);
   EXPECT_LE(choice.probability, 1);
@@ -205,30 +219,30 @@ TEST(CalibratedGate, WhatMostReadingsAgreeOnCanWin) {
 }
 
 TEST(FittedGate, TrustsACleanRopeAndDoubtsOneThatLeavesTheMaskUnexplained) {
-  const double clean = choose_calibrated(std::vector{straight(0)}).probability;
+  const double clean = choose_calibrated(std::vector{straight(0)}, shipped_for_mask()).probability;
   Candidate poor = with_recall(straight(0), 0.6F);
   poor.tube.mask_precision = 0.7F;
   poor.tube.depth_agreement = 0.6F;
   poor.longest_gap = 15;
   poor.buried_ends = 0.5F;
-  const double wrong = choose_calibrated(std::vector{poor}).probability;
+  const double wrong = choose_calibrated(std::vector{poor}, shipped_for_mask()).probability;
   EXPECT_GT(clean, 0.8);
   EXPECT_LT(wrong, 0.5);
 }
 
 TEST(FittedGate, DoubtWidensSigma) {
-  const Choice clean = choose_calibrated(std::vector{straight(0)});
+  const Choice clean = choose_calibrated(std::vector{straight(0)}, shipped_for_mask());
   Candidate poor = with_recall(straight(0), 0.6F);
   poor.tube.mask_precision = 0.7F;
   poor.buried_ends = 0.5F;
-  const Choice wrong = choose_calibrated(std::vector{poor});
+  const Choice wrong = choose_calibrated(std::vector{poor}, shipped_for_mask());
   for (std::size_t i = 0; i < kNodes; ++i) EXPECT_GT(wrong.sigma_m[i], clean.sigma_m[i]);
 }
 
 TEST(FittedGate, KeepsTheCleanPriorAgainstAWorseRunnerUp) {
   Candidate other = with_recall(straight(0.1F, 1), 0.7F);
   other.behind = 5;
-  EXPECT_EQ(choose_calibrated(std::vector{straight(0), other}).chosen, 0U);
+  EXPECT_EQ(choose_calibrated(std::vector{straight(0), other}, shipped_for_mask()).chosen, 0U);
 }
 
 /// Two of which the first explains a little more: scores 0 and -0.1.
@@ -261,13 +275,6 @@ TEST(CalibratedGate, AGuestIsTakenByItsScoreAndWhatSpeaksForIt) {
   EXPECT_EQ(choose_calibrated(candidates, by_recall(), beside).chosen, 0U);
 }
 
-TEST(CalibratedGate, FramesThatAStrandFieldWasAskedAboutHaveWeightsOfTheirOwn) {
-  std::vector candidates{straight(0), straight(0.05F, 1)};
-  EXPECT_EQ(&fitted_weights(candidates), &fitted_to_mask());
-  for (Candidate& candidate : candidates) candidate.axes.known = true;
-  EXPECT_EQ(&fitted_weights(candidates), &fitted_to_field());
-}
-
 TEST(CalibratedGate, WithoutAStrandFieldNothingOfItIsWeighed) {
   constexpr std::size_t kOfField = 14;  // features of a hypothesis
   const std::vector candidates{straight(0), straight(0.05F, 1)};
@@ -284,9 +291,9 @@ TEST(CalibratedGate, AnAxisThatIsNotFollowedCountsAgainstAHypothesis) {
     candidate.readings = 4;
     candidate.seen_odds = 0.5F;
   }
+  const GateWeights weights = shipped_for_field();
   const auto lead = [&] {
-    return hypothesis_score(candidates, 1, fitted_to_field()) -
-           hypothesis_score(candidates, 0, fitted_to_field());
+    return hypothesis_score(candidates, 1, weights) - hypothesis_score(candidates, 0, weights);
   };
   const double alike = lead();
   candidates[0].axes.followed = 0.6F;
@@ -295,8 +302,9 @@ TEST(CalibratedGate, AnAxisThatIsNotFollowedCountsAgainstAHypothesis) {
 
 TEST(CalibratedGate, AGuestThatIsNotTakenIsNotCounted) {
   const std::vector candidates{straight(0), with_recall(straight(0.05F, 1), 0.8F)};
-  const Choice alone = choose_calibrated(candidates);
-  const Choice visited = choose_calibrated(candidates, fitted_to_mask(),
+  const GateWeights weights = shipped_for_mask();
+  const Choice alone = choose_calibrated(candidates, weights);
+  const Choice visited = choose_calibrated(candidates, weights,
                                            {.guest = straight(0.0001F, 2), .guest_log_prior = -99});
   EXPECT_EQ(visited.chosen, alone.chosen);
   EXPECT_EQ(visited.probability, alone.probability);
