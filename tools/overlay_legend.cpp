@@ -71,10 +71,14 @@ Legend legend_of(const Estimate& estimate, const std::string& device) {
 Legend legend_of(const Ropes& ropes, const std::string& device) {
   float least = 1;
   for (const Estimate& rope : ropes.ropes) least = std::min(least, rope.confidence);
-  Legend legend{{fmt::format("{} ropes, {} crossings", ropes.ropes.size(), ropes.crossings.size()),
-                 fmt::format("least confidence {:.2f}", least),
-                 fmt::format("{}   {:.0f} ms", shown(device), ropes.total_ms)},
-                {}};
+  const auto counted = [](std::size_t count, const char* what) {
+    return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
+  };
+  Legend legend{
+      {counted(ropes.ropes.size(), "rope") + ", " + counted(ropes.crossings.size(), "crossing"),
+       fmt::format("least confidence {:.2f}", least),
+       fmt::format("{}   {:.0f} ms", shown(device), ropes.total_ms)},
+      {}};
   for (std::size_t i = 0; i < std::min(ropes.ropes.size(), kMostSwatches); ++i) {
     legend.swatches.push_back({rope_color(i), fmt::format("{}", i)});
   }

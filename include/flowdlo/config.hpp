@@ -16,10 +16,11 @@ enum class PriorChoice {
 
 /// Who decides between predictions and priors.
 enum class GateChoice {
-  kOfWeights,  ///< kCalibrated for a trained model with a refined prior that says how far nodes may
-               ///< be off, as the one that comes with FlowDLO; otherwise kThesis
+  kOfWeights,  ///< kCalibrated for a trained model that brings a calibration, used with the refined
+               ///< prior, as the one that comes with FlowDLO; otherwise kThesis
   kThesis,     ///< Eq. (3.30)-(3.33): the plausible draw of highest mask agreement, or the prior
-  kCalibrated,  ///< a score fitted on synthetic scenes, over draws, prior and alternatives
+  kCalibrated,  ///< a score fitted on synthetic scenes, over draws, prior and alternatives: the
+                ///< calibration that the weights bring; with none, creating fails with kBadWeights
 };
 
 /// Which small networks help beside the reading of the mask: one that sees strands, since a mask

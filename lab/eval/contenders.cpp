@@ -110,8 +110,11 @@ Result<void> Contenders::add_model(const Config& config, const std::string& name
 }
 
 Result<void> Contenders::add_gates(const Config& config, const std::string& part) {
+  const auto info = inspect_weights(config.weights);
+  if (!info) return info.error();
   Config one = config;
   for (const GateChoice gate : {GateChoice::kThesis, GateChoice::kCalibrated}) {
+    if (gate == GateChoice::kCalibrated && info->metadata.count("calibration") == 0) continue;
     one.gate = gate;
     auto estimator = Estimator::create(one);
     if (!estimator) return estimator.error();

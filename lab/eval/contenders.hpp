@@ -18,7 +18,8 @@ struct ContenderConfig {
   std::vector<std::string> baselines;  ///< names, or "all"
   /// Folder of NAME.fdw; empty: none. Those named full, no-points, direct and residual are the
   /// columns of the thesis' tables, and full and direct run at 1, 4, 10 and 20 steps. With models,
-  /// the evaluated one and full return by either gate, too: gate-thesis, full.gate-calibrated, ...
+  /// the evaluated one and full return by either gate that their weights know, too: gate-thesis,
+  /// full.gate-calibrated, ...
   std::filesystem::path models;
 };
 

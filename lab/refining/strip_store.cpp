@@ -9,7 +9,7 @@
 #include "estimator/second_look.hpp"
 #include "eval/metrics.hpp"
 #include "field/network.hpp"
-#include "gate/calibrated.hpp"
+#include "gate/fitted.hpp"
 #include "geometry/camera.hpp"
 #include "reference/program.hpp"
 #include "refine/local_frame.hpp"
@@ -42,9 +42,12 @@ StripTruth truth_of(const Centerline& nodes, const Centerline& canonical) {
   return result;
 }
 
+/// What is chosen where nothing else is known: by the field's calibration, else the best score.
+using Gate = std::optional<gate::GateWeights>;
+
 /// Nothing where there is no path.
 Result<std::optional<StripSample>> sample_of(const DataConfig& config, std::uint64_t number,
-                                             field::Network* field) {
+                                             field::Network* field, const Gate& gate) {
   const bool seen = field != nullptr && synth::evenly_spread(config.seen, number);
   const auto scene =
       synth::make_frame(synth::Split::kWide, synth::Part::kTraining, 0, config.first + number,
@@ -58,7 +61,7 @@ Result<std::optional<StripSample>> sample_of(const DataConfig& config, std::uint
   const auto look = estimator::Rereading(alone, seen, field, *conditions, frame, {}).finish();
   const auto candidates =
       estimator::list_candidates(look, conditions->paths.rope_width_px, {}, {}, {}, frame, 0);
-  const auto& chosen = candidates[gate::choose_calibrated(candidates).chosen];
+  const auto& chosen = candidates[gate ? gate::choose_calibrated(candidates, *gate).chosen : 0];
   auto strip = refine::strip_along(estimator::curve_of(chosen), frame);
   if (!strip) return std::optional<StripSample>();
   StripSample sample{truth_of(chosen.nodes, eval::canonical(scene->truth())), *std::move(strip)};
@@ -72,8 +75,8 @@ Result<std::optional<StripSample>> sample_of(const DataConfig& config, std::uint
 }
 
 Result<std::vector<survey::Bytes>> packed_strips(const DataConfig& config, std::uint64_t number,
-                                                 field::Network& field) {
-  const auto sample = sample_of(config, number, &field);
+                                                 field::Network& field, const Gate& gate) {
+  const auto sample = sample_of(config, number, &field, gate);
   if (!sample) return sample.error();
   std::vector<survey::Bytes> packed;
   if (*sample) {
@@ -90,11 +93,13 @@ Result<std::vector<survey::Bytes>> packed_strips(const DataConfig& config, std::
 Result<void> make_strips(const std::filesystem::path& folder, const DataConfig& config,
                          std::shared_ptr<const weights::FieldWeights> field, int threads,
                          const std::function<void()>& progress) {
+  Gate gate;
+  if (field->calibration) gate = gate::gate_weights(*field->calibration);
   return survey::make_shards(
       folder, kStrips, config.scenes, threads,
       [&] { return field::Network::create(field, [] { return reference::create_program(1); }); },
       [&](field::Network& network, std::uint64_t scene) {
-        return packed_strips(config, scene, network);
+        return packed_strips(config, scene, network, gate);
       },
       progress);
 }

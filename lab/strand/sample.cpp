@@ -252,7 +252,9 @@ void cut_gaps(const std::vector<Strand>& strands, Dice& dice, cv::Mat& mask) {
   }
 }
 
-void spoil_mask(const std::vector<Strand>& strands, Dice& dice, cv::Mat& mask) {
+/// Returns what was taken off strands; empty: nothing.
+cv::Mat spoil_mask(const std::vector<Strand>& strands, Dice& dice, cv::Mat& mask) {
+  cv::Mat taken;
   const float how = dice.uniform(0, 1);
   if (how < 0.12F) {
     grow(mask, 3);
@@ -277,6 +279,7 @@ void spoil_mask(const std::vector<Strand>& strands, Dice& dice, cv::Mat& mask) {
     if (gaps) cut_gaps(strands, dice, mask);
     // A rope of which nothing is masked is one of the cables that are not meant.
     if (cv::sum(mask)[0] < kLeastMasked * cv::sum(before)[0]) mask = before;
+    taken = before - mask;
   }
   if (dice.chance(0.1)) {  // frayed
     const cv::Mat noise = smooth_noise(mask.cols, static_cast<double>(dice.uniform(3, 9)), dice);
@@ -292,6 +295,7 @@ void spoil_mask(const std::vector<Strand>& strands, Dice& dice, cv::Mat& mask) {
     }
   }
   if (dice.chance(0.5)) cv::threshold(mask, mask, 0.5, 1, cv::THRESH_BINARY);
+  return taken;
 }
 
 // -- Colours ------------------------------------------------------------------------------------
@@ -582,7 +586,7 @@ Sample sample_of(const Patch& patch, int size_px, std::uint64_t seed, std::uint6
   const auto strands = placed(patch.strands, placing);
   const Targets truth = targets_of(strands, patch.focal_px * placing.scale, {size_px, size_px});
   Scene sight = scene_of(patch, placing, size_px);
-  spoil_mask(strands, dice, sight.mask);
+  const cv::Mat taken = spoil_mask(strands, dice, sight.mask);
   const bool alone = dice.chance(config.mask_alone);
   if (alone || dice.chance(config.no_color)) {
     sight.color = cv::Mat();
@@ -592,16 +596,20 @@ Sample sample_of(const Patch& patch, int size_px, std::uint64_t seed, std::uint6
     spoil_color(config, dice, sight.color);
     spoil_picture(config, patch.frame_scale * placing.scale, dice, sight.color);
   }
+  bool beside = !sight.color.empty();  // whether anything shows beside the mask
   if (alone || dice.chance(config.no_depth)) {
     sight.depth_m.setTo(0);
+  } else if (config.level > 0 && dice.chance(config.level)) {
+    sight.depth_m.setTo(cv::mean(sight.depth_m, sight.depth_m > 0));
+  } else if (config.mask_depth > 0 && dice.chance(config.mask_depth)) {
+    spoil_depth(dice, sight);
+    keep_depth_of_mask(dice, sight);
   } else {
-    if (config.level > 0 && dice.chance(config.level)) {
-      sight.depth_m.setTo(cv::mean(sight.depth_m, sight.depth_m > 0));
-    } else {
-      spoil_depth(dice, sight);
-    }
-    if (config.mask_depth > 0 && dice.chance(config.mask_depth)) keep_depth_of_mask(dice, sight);
+    spoil_depth(dice, sight);
+    beside = true;
   }
+  // Nobody can know of what a mask lacks where nothing shows beside it.
+  if (!beside && !taken.empty()) sight.mask = cv::max(sight.mask, taken);
   Sample sample{mat::mat_of(field::input_of(sight_of(sight))), truth.field};
   // Beyond the image nothing is known, and nothing is asked.
   for (int v = 0; v < size_px; ++v) {
