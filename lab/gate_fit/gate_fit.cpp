@@ -95,7 +95,8 @@ Result<Model> open_model(const Options& options, bool with_sampler) {
     model.field = std::make_shared<const flowdlo::weights::FieldWeights>(*std::move(field));
   }
   if (model.weights->calibration) {
-    model.fitted.emplace(flowdlo::gate::gate_weights(*model.weights->calibration));
+    model.fitted =
+        flowdlo::gate::Fitted{.to_mask = flowdlo::gate::gate_weights(*model.weights->calibration)};
     if (model.field && model.field->calibration) {
       model.fitted->to_field = flowdlo::gate::gate_weights(*model.field->calibration);
     }
