@@ -104,9 +104,7 @@ Result<std::optional<gate::Fitted>> open_gate(const Config& config, const weight
                     "gate-fit, or leave Config::gate to the weights",
                     model.metadata.name)};
   }
-  gate::Fitted fitted{gate::gate_weights(*model.calibration)};
-  if (of_field) fitted.to_field = gate::gate_weights(*of_field);
-  return std::optional(std::move(fitted));
+  return gate::Fitted::of_weights(model.calibration, of_field);
 }
 
 }  // namespace flowdlo::estimator

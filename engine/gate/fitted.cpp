@@ -75,6 +75,14 @@ weights::Calibration calibration_of(const GateWeights& weights, const std::strin
   return calibration;
 }
 
+std::optional<Fitted> Fitted::of_weights(const std::optional<weights::Calibration>& model,
+                                         const std::optional<weights::Calibration>& field) {
+  if (!model) return std::nullopt;
+  Fitted fitted{gate_weights(*model)};
+  if (field) fitted.to_field = gate_weights(*field);
+  return fitted;
+}
+
 const GateWeights& Fitted::of(std::span<const Candidate> candidates) const {
   const bool seen = !candidates.empty() && candidates.front().axes.known;
   return seen && to_field ? *to_field : to_mask;

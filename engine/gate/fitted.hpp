@@ -22,6 +22,11 @@ struct Fitted {
   GateWeights to_mask;
   std::optional<GateWeights> to_field{};
 
+  /// Of the model's calibration and the field's; nothing without the first.
+  [[nodiscard]] static std::optional<Fitted> of_weights(
+      const std::optional<weights::Calibration>& model,
+      const std::optional<weights::Calibration>& field);
+
   /// Those that the candidates of a frame ask for.
   [[nodiscard]] const GateWeights& of(std::span<const Candidate> candidates) const;
 };

@@ -193,7 +193,6 @@ Strand make_strand(const Segment& segment, const Graph& graph, const Crossings& 
     end.node = segment.node[side];
     const bool tip = strand.ring || graph.at_tip(segment, side);
     end.crossing = tip ? -1 : crossings.of(end.node);
-    if (!strand.ring) end.node_px = graph.nodes[end.node].position_px;
     if (!strand.ring && !tip) {
       const int cut = distorted(points, region.distance_px, sizes.scale_px, sizes.width_px);
       points.erase(points.begin(), points.begin() + cut);

@@ -31,7 +31,6 @@ struct StrandEnd {
   EndLook look{};                 ///< of the strand near it
   int crossing = -1;              ///< the crossing it runs into; -1: a tip
   int node = -1;                  ///< the graph's node there
-  Eigen::Vector2f node_px{0, 0};  ///< and where it is
   Eigen::Vector2f fork_px{0, 0};  ///< middle of the points of all ends at that node
 
   [[nodiscard]] bool tip() const { return crossing < 0; }

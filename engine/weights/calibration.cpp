@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
+#include <iterator>
 
 #include "weights/fdw.hpp"
 
@@ -70,9 +71,9 @@ Calibration decode_calibration(const CalibrationHead& head, const std::vector<St
   const auto matched = match(stored, calibration_manifest(), kReadable, faults);
   calibration.tensors = decode(matched, calibration_manifest(), faults);
   const std::string got = digest(matched);
-  if (faults.size() == before && !head.sha256.empty() && got != head.sha256) {
+  if (faults.size() == before && head.sha256 && got != *head.sha256) {
     faults.push_back(fmt::format("section {}: expected SHA-256 {}, got {}; copy or fit it again",
-                                 kCalibrationName, in_quotes(head.sha256), got));
+                                 kCalibrationName, in_quotes(*head.sha256), got));
   }
   return calibration;
 }
@@ -98,26 +99,34 @@ StoredCalibration encode_calibration(const Calibration& calibration,
   return stored;
 }
 
-void add_head(const CalibrationHead& head, std::map<std::string, std::string>& metadata) {
-  metadata[key("")] = head.version;
-  metadata[key("_notes")] = head.notes;
-  metadata[key("_sha256")] = head.sha256;
+void put_calibration(const Calibration& calibration, std::map<std::string, std::string>& metadata,
+                     std::vector<StoredTensor>& stored,
+                     std::vector<std::vector<std::uint8_t>>& encoded,
+                     std::vector<std::string>& faults) {
+  StoredCalibration section = encode_calibration(calibration, faults);
+  metadata[key("")] = kCalibrationVersion;
+  metadata[key("_notes")] = calibration.notes;
+  metadata[key("_sha256")] = section.sha256;
+  stored.insert(stored.end(), section.tensors.begin(), section.tensors.end());
+  std::move(section.bytes.begin(), section.bytes.end(), std::back_inserter(encoded));
 }
 
 std::optional<Calibration> take_calibration(const std::map<std::string, std::string>& metadata,
                                             std::vector<StoredTensor>& tensors,
                                             std::vector<std::string>& faults) {
-  const auto value = [&](std::string_view of) -> std::string_view {
+  const auto value = [&](std::string_view of) {
     const auto found = metadata.find(key(of));
-    return found == metadata.end() ? std::string_view() : found->second;
+    return found == metadata.end() ? std::nullopt : std::optional<std::string_view>(found->second);
   };
-  if (metadata.count(key("")) == 0) return std::nullopt;
+  const auto version = value("");
+  if (!version) return std::nullopt;
   const auto first =
       std::stable_partition(tensors.begin(), tensors.end(),
                             [](const StoredTensor& tensor) { return !of_calibration(tensor); });
   const std::vector<StoredTensor> section(first, tensors.end());
   tensors.erase(first, tensors.end());
-  return decode_calibration({value(""), value("_notes"), value("_sha256")}, section, faults);
+  return decode_calibration({*version, value("_notes").value_or(""), value("_sha256")}, section,
+                            faults);
 }
 
 }  // namespace flowdlo::weights

@@ -46,7 +46,7 @@ inline constexpr CalibrationNetwork kNodeErrorNetwork{"node_error", 39, 16, 5};
 struct CalibrationHead {
   std::string_view version;
   std::string_view notes;
-  std::string_view sha256;
+  std::optional<std::string_view> sha256;  ///< none: the file names none, and none is checked
 };
 
 /// Of a section as stored, f32 or f16. Every mismatch goes to `faults`.
@@ -65,12 +65,16 @@ struct StoredCalibration {
 [[nodiscard]] StoredCalibration encode_calibration(const Calibration& calibration,
                                                    std::vector<std::string>& faults);
 
-/// The head as a .safetensors file's metadata has it: keys "calibration", "calibration_notes" and
-/// "calibration_sha256".
-void add_head(const CalibrationHead& head, std::map<std::string, std::string>& metadata);
+/// Puts the section behind what a .safetensors file holds otherwise: keys "calibration",
+/// "calibration_notes" and "calibration_sha256" of its metadata, and its tensors. What is unfit
+/// goes to `faults`.
+void put_calibration(const Calibration& calibration, std::map<std::string, std::string>& metadata,
+                     std::vector<StoredTensor>& stored,
+                     std::vector<std::vector<std::uint8_t>>& encoded,
+                     std::vector<std::string>& faults);
 
 /// Takes the section's tensors out of a .safetensors file's; nothing where `metadata` names none.
-/// There the digest may be missing, as may the model's. Every mismatch goes to `faults`.
+/// Its digest may be missing there. Every mismatch goes to `faults`.
 [[nodiscard]] std::optional<Calibration> take_calibration(
     const std::map<std::string, std::string>& metadata, std::vector<StoredTensor>& tensors,
     std::vector<std::string>& faults);

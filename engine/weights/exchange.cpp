@@ -45,20 +45,13 @@ Result<void> exported(const std::filesystem::path& weights, const std::filesyste
     view.bytes = encoded.back();
     stored.push_back(std::move(view));
   }
-  ws::StoredCalibration calibration;
-  if (file->weights.calibration) {
-    calibration = ws::encode_calibration(*file->weights.calibration, faults);
-    for (auto& tensor : calibration.tensors) stored.push_back(tensor);
-    for (auto& bytes : calibration.bytes) encoded.push_back(bytes);
-  }
-  if (!faults.empty()) return ws::bad_weights(weights, faults);
-
   auto fields = ws::to_fields(file->weights.metadata);
   fields["sha256"] = file->sha256;
   if (file->weights.calibration) {
-    ws::add_head({ws::kCalibrationVersion, file->weights.calibration->notes, calibration.sha256},
-                 fields);
+    ws::put_calibration(*file->weights.calibration, fields, stored, encoded, faults);
   }
+  if (!faults.empty()) return ws::bad_weights(weights, faults);
+
   const std::string header = ws::safetensors_header(fields, stored);
   const auto* header_bytes = reinterpret_cast<const std::uint8_t*>(header.data());
   std::vector<std::span<const std::uint8_t>> parts{{header_bytes, header.size()}};

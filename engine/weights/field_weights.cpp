@@ -186,13 +186,9 @@ Result<void> save_field(const FieldWeights& weights, const std::filesystem::path
     fields.emplace("refine", kRefineVersion);
     fields.emplace("refine_notes", weights.refine->notes);
   }
-  StoredCalibration calibration;
   if (weights.calibration) {
-    calibration = encode_calibration(*weights.calibration, faults);
+    put_calibration(*weights.calibration, fields, stored, encoded, faults);
     if (!faults.empty()) return bad_weights(file, faults);
-    add_head({kCalibrationVersion, weights.calibration->notes, calibration.sha256}, fields);
-    stored.insert(stored.end(), calibration.tensors.begin(), calibration.tensors.end());
-    encoded.insert(encoded.end(), calibration.bytes.begin(), calibration.bytes.end());
   }
   const std::string header = safetensors_header(fields, stored);
   const auto* header_bytes = reinterpret_cast<const std::uint8_t*>(header.data());

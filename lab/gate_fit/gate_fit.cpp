@@ -94,13 +94,8 @@ Result<Model> open_model(const Options& options, bool with_sampler) {
     if (!field) return field.error();
     model.field = std::make_shared<const flowdlo::weights::FieldWeights>(*std::move(field));
   }
-  if (model.weights->calibration) {
-    model.fitted =
-        flowdlo::gate::Fitted{.to_mask = flowdlo::gate::gate_weights(*model.weights->calibration)};
-    if (model.field && model.field->calibration) {
-      model.fitted->to_field = flowdlo::gate::gate_weights(*model.field->calibration);
-    }
-  }
+  model.fitted = flowdlo::gate::Fitted::of_weights(
+      model.weights->calibration, model.field ? model.field->calibration : std::nullopt);
   if (!with_sampler) return model;
   const auto back_end = flowdlo::estimator::cpu_back_end(options.threads);
   auto sampler = flowdlo::flow::Sampler::create(
@@ -266,16 +261,17 @@ Error no_calibration(const std::string& file) {
                   file)};
 }
 
-/// What the weights that are fitted to hold so far: the field's, or without one the model's.
-Result<std::optional<flowdlo::weights::Calibration>> calibration_before(const Options& options) {
-  if (options.field.empty()) {
-    auto model = flowdlo::weights::load(options.weights);
-    if (!model) return model.error();
-    return std::move(model->calibration);
+/// What the weights that are fitted to hold so far: the field's, or without one the model's. Fails
+/// where they hold nothing of which the options ask to keep a part.
+Result<std::optional<flowdlo::gate::GateWeights>> fitted_before(const Options& options) {
+  const auto model = open_model(options, false);
+  if (!model) return model.error();
+  const auto& before = model->field ? model->field->calibration : model->weights->calibration;
+  if (before) return std::optional(flowdlo::gate::gate_weights(*before));
+  if (!options.keep_choice && !options.keep_draws) {
+    return std::optional<flowdlo::gate::GateWeights>();
   }
-  auto field = flowdlo::weights::load_field(options.field);
-  if (!field) return field.error();
-  return std::move(field->calibration);
+  return no_calibration(model->field ? options.field : options.weights);
 }
 
 /// The same weights with another calibration, as options.out.
@@ -293,6 +289,9 @@ Result<void> write_fitted(const Options& options, flowdlo::weights::Calibration 
 }
 
 int fit(const Options& options) {
+  const auto before = fitted_before(options);  // before anything is measured
+  if (!before) return failed(before.error());
+  const auto& kept = *before;
   auto samples = with_model(options);
   if (!samples) return failed(samples.error());
   auto more = without_model(options);
@@ -305,13 +304,6 @@ int fit(const Options& options) {
   }
   Samples all = *samples;
   all.insert(all.end(), more->begin(), more->end());
-  const auto before = calibration_before(options);
-  if (!before) return failed(before.error());
-  const std::optional<flowdlo::gate::GateWeights> kept =
-      *before ? std::optional(flowdlo::gate::gate_weights(**before)) : std::nullopt;
-  if (!kept && (options.keep_choice || options.keep_draws)) {
-    return failed(no_calibration(seen ? options.field : options.weights));
-  }
   auto weights = lab::fit_gate(all, *clean, options.keep_choice ? &*kept : nullptr);
   if (options.keep_draws) {
     weights.draw = kept->draw;
