@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cassert>
 #include <iterator>
 
 #include "weights/fdw.hpp"
@@ -37,12 +36,7 @@ std::vector<Expected> calibration_manifest() {
 }
 
 const Tensor& tensor_of(const Calibration& calibration, std::string_view wanted) {
-  const auto found = std::find_if(
-      calibration.tensors.begin(), calibration.tensors.end(), [wanted](const Tensor& tensor) {
-        return std::string_view(tensor.name).substr(kCalibrationName.size() + 1) == wanted;
-      });
-  assert(found != calibration.tensors.end());
-  return *found;
+  return named(calibration.tensors, fmt::format("{}.{}", kCalibrationName, wanted));
 }
 
 Calibration neutral_calibration() {

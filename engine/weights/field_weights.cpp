@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cassert>
 #include <charconv>
 #include <cmath>
 #include <cstddef>
@@ -71,12 +70,7 @@ std::vector<Expected> whole_manifest(const FieldSizes& sizes, bool refines) {
 
 }  // namespace
 
-const Tensor& FieldWeights::at(std::string_view wanted) const {
-  const auto found = std::find_if(tensors.begin(), tensors.end(),
-                                  [wanted](const Tensor& tensor) { return tensor.name == wanted; });
-  assert(found != tensors.end());
-  return *found;
-}
+const Tensor& FieldWeights::at(std::string_view wanted) const { return named(tensors, wanted); }
 
 std::vector<Expected> field_manifest(const FieldSizes& sizes) {
   const auto [fine, middle, coarse] = sizes;

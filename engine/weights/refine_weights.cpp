@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cassert>
 
 #include "weights/seeded_noise.hpp"
 
@@ -15,11 +13,7 @@ constexpr std::string_view kPrefix = "refine.";
 }  // namespace
 
 const Tensor& RefineWeights::at(std::string_view wanted) const {
-  const auto found = std::find_if(tensors.begin(), tensors.end(), [wanted](const Tensor& tensor) {
-    return std::string_view(tensor.name).substr(kPrefix.size()) == wanted;
-  });
-  assert(found != tensors.end());
-  return *found;
+  return named(tensors, fmt::format("{}{}", kPrefix, wanted));
 }
 
 std::vector<Expected> refine_manifest() {

@@ -10,12 +10,14 @@
 
 namespace flowdlo::weights {
 
-const Tensor& Weights::at(std::string_view name) const {
+const Tensor& named(std::span<const Tensor> tensors, std::string_view name) {
   const auto found = std::find_if(tensors.begin(), tensors.end(),
                                   [name](const Tensor& tensor) { return tensor.name == name; });
   assert(found != tensors.end());
   return *found;
 }
+
+const Tensor& Weights::at(std::string_view name) const { return named(tensors, name); }
 
 std::vector<std::string> faults(const Weights& weights) {
   auto list = faults(weights.metadata);

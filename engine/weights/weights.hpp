@@ -35,6 +35,9 @@ struct Tensor {
   std::vector<float> values;  ///< f32 in memory whatever the file holds
 };
 
+/// The tensor of that name, which must be there.
+[[nodiscard]] const Tensor& named(std::span<const Tensor> tensors, std::string_view name);
+
 struct Expected {
   std::string name;
   std::vector<int> shape;

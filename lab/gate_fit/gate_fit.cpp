@@ -42,7 +42,8 @@ constexpr std::uint64_t kFirstUntrained = 1000000;  // training takes its scenes
 constexpr int kLeastScenes = 50;
 constexpr std::uint64_t kLengthKnownEvery = 4;
 constexpr std::uint64_t kApart = 500000;  // between scenes with and without the model
-constexpr int kCleanShare = 4;            // one of the thesis split on so many of the others
+constexpr int kCleanShare = 4;  // one of the thesis split, and one drawn, on so many of the others
+constexpr std::uint64_t kBareEvery = 12;  // frames of which one, two or three lack something
 constexpr int kPixels = 1280 * 720;
 
 struct Options {
@@ -68,13 +69,26 @@ struct Options {
 struct Batch {
   lab::SampleOrigin origin;
   int scenes = 0;
-  std::string file;  ///< empty: keep nothing
+  std::string file;   ///< empty: keep nothing
+  bool bare = false;  ///< some frames lack what some cameras do not give
 };
 
 /// Every so many training frames come with the rope's length, so that the fit learns what it is
 /// worth.
 double known_length_m(const lab::SampleOrigin& origin, std::uint64_t index, double length_m) {
   return origin.part == "training" && index % kLengthKnownEvery == 0 ? length_m : 0;
+}
+
+/// Some frames come without a picture, some with depth on the mask alone, some with neither: what
+/// a strand field says of them is weighed as well.
+void lay_bare(flowdlo::FrameFolder& frame, std::uint64_t index) {
+  const std::uint64_t turn = index % kBareEvery;
+  const bool both = turn == 5;
+  if (both || turn == 1 || turn == 7) frame.color_bgr.clear();
+  if (!both && turn != 3 && turn != 9) return;
+  for (std::size_t i = 0; i < frame.depth_m.size(); ++i) {
+    if (frame.mask[i] == 0) frame.depth_m[i] = 0;
+  }
 }
 
 struct Model {
@@ -146,8 +160,9 @@ Measured measured_one(const Options& options, const Batch& batch, Model& model, 
                       std::uint64_t number) {
   const std::uint64_t index = batch.origin.first + number;
   // Colours take longest, and nothing but the strand field asks for them.
-  const auto scene = scene_of(batch.origin, index, networks.field.has_value());
+  auto scene = scene_of(batch.origin, index, networks.field.has_value());
   if (!scene) return scene.error();
+  if (batch.bare) lay_bare(scene->folder, index);
   const auto kind = model.weights->metadata.variant.prior_kind;
   const double length_m = known_length_m(batch.origin, index, scene->meta.length_m);
   return lab::measure(*scene, model.sampler ? &*model.sampler : nullptr,
@@ -225,14 +240,14 @@ Result<Samples> with_model(const Options& options) {
 
 Result<Samples> without_model(const Options& options) {
   if (options.more == 0) return Samples{};
-  return samples_of(options,
-                    {.origin = {.weights_sha256 = "",
-                                .field = field_of(options),
-                                .split = options.split,
-                                .part = options.part,
-                                .first = options.first + kApart},
-                     .scenes = options.more,
-                     .file = options.cache.empty() ? "" : options.cache + "_priors.jsonl"});
+  return samples_of(options, {.origin = {.weights_sha256 = "",
+                                         .field = field_of(options),
+                                         .split = options.split,
+                                         .part = options.part,
+                                         .first = options.first + kApart},
+                              .scenes = options.more,
+                              .file = options.cache.empty() ? "" : options.cache + "_priors.jsonl",
+                              .bare = true});
 }
 
 /// Table-top scenes with clean depth, so that what is sure counts as well.
@@ -245,6 +260,18 @@ Result<Samples> clean_without_model(const Options& options) {
                                 .part = options.part},
                      .scenes = options.more / kCleanShare,
                      .file = options.cache.empty() ? "" : options.cache + "_thesis.jsonl"});
+}
+
+/// Plain tubes before nothing, so that a frame that shows no more than a rope counts as well.
+Result<Samples> drawn_without_model(const Options& options) {
+  if (options.more == 0) return Samples{};
+  return samples_of(options, {.origin = {.weights_sha256 = "",
+                                         .field = field_of(options),
+                                         .split = "drawn",
+                                         .part = options.part},
+                              .scenes = options.more / kCleanShare,
+                              .file = options.cache.empty() ? "" : options.cache + "_drawn.jsonl",
+                              .bare = true});
 }
 
 /// Those of frames that a strand field was asked about: what it says of others is not weighed.
@@ -298,23 +325,28 @@ int fit(const Options& options) {
   if (!more) return failed(more.error());
   auto clean = clean_without_model(options);
   if (!clean) return failed(clean.error());
+  auto drawn = drawn_without_model(options);
+  if (!drawn) return failed(drawn.error());
   const bool seen = !options.field.empty();
   if (seen) {
-    for (Samples* of : {&*samples, &*more, &*clean}) keep_seen(*of);
+    for (Samples* of : {&*samples, &*more, &*clean, &*drawn}) keep_seen(*of);
   }
   Samples all = *samples;
   all.insert(all.end(), more->begin(), more->end());
-  auto weights = lab::fit_gate(all, *clean, options.keep_choice ? &*kept : nullptr);
+  Samples also = *clean;
+  also.insert(also.end(), drawn->begin(), drawn->end());
+  auto weights = lab::fit_gate(all, also, options.keep_choice ? &*kept : nullptr);
   if (options.keep_draws) {
     weights.draw = kept->draw;
     weights.draw_margin = kept->draw_margin;
   }
   const auto info = flowdlo::inspect_weights(options.weights);
   const std::string notes = fmt::format(
-      "{}{} on {} scenes of {} {} from {}, and {} and {} of thesis without a model; weights {}...",
+      "{}{} on {} scenes of {} {} from {}, and without a model {}, {} of thesis and {} drawn; "
+      "weights {}...",
       options.keep_choice ? "choice kept; confidence and sigma_m fitted" : "fitted",
       options.keep_draws ? ", weights of draws kept," : "", samples->size(), options.split,
-      options.part, options.first, more->size(), clean->size(),
+      options.part, options.first, more->size(), clean->size(), drawn->size(),
       info ? info->sha256.substr(0, 16) : "unknown");
   const auto written = write_fitted(options, flowdlo::gate::calibration_of(weights, notes));
   if (!written) return failed(written.error());
@@ -343,8 +375,8 @@ void add_options(CLI::App& command, Options& options) {
       ->check(CLI::ExistingFile);
   command
       .add_option("--cache", options.cache,
-                  "Keep what was measured in NAME.jsonl, NAME_priors.jsonl and NAME_thesis.jsonl; "
-                  "remove them when path or prior change")
+                  "Keep what was measured in NAME.jsonl, NAME_priors.jsonl, NAME_thesis.jsonl and "
+                  "NAME_drawn.jsonl; remove them when path or prior change")
       ->type_name("NAME");
   command.add_option("--split", options.split, "wide or thesis")
       ->check(CLI::IsMember({"wide", "thesis"}))
