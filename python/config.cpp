@@ -17,7 +17,8 @@ template <class Choice, std::size_t kCount>
 using Names = std::array<std::pair<const char*, Choice>, kCount>;
 
 // As the options of the command are called.
-constexpr Names<Quality, 2> kQualities{{{"full", Quality::kFull}, {"fast", Quality::kFast}}};
+constexpr Names<Quality, 3> kQualities{
+    {{"auto", Quality::kAuto}, {"full", Quality::kFull}, {"fast", Quality::kFast}}};
 constexpr Names<PriorChoice, 3> kPriors{{{"auto", PriorChoice::kOfWeights},
                                          {"thesis", PriorChoice::kThesis},
                                          {"refined", PriorChoice::kRefined}}};

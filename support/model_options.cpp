@@ -1,5 +1,7 @@
 #include "model_options.hpp"
 
+#include <fmt/format.h>
+
 #include <string>
 
 #include "choice.hpp"
@@ -56,17 +58,24 @@ void add_model_options(CLI::App& command, Config& config) {
                   "auto, vulkan, cpu, part of a device's name, or its UUID")
       ->capture_default_str()
       ->each(widen_lavapipe);
+  const auto run_in_full = [&config](const std::string&) { config.quality = Quality::kFull; };
   auto* steps = command.add_option("--steps", config.euler_steps, "Euler steps of the model")
                     ->capture_default_str()
+                    ->each(run_in_full)
                     ->check(CLI::Range(1, 64));
   auto* draws = command.add_option("--draws", config.draws, "Gaussian sources a frame")
                     ->capture_default_str()
+                    ->each(run_in_full)
                     ->check(CLI::Range(1, 64));
   command
-      .add_option("--quality", config.quality,
-                  "full: 10 steps of 4 draws; fast: the steps and draws that the weights' metadata "
-                  "say lose nothing")
-      ->transform(choice<Quality>({{"full", Quality::kFull}, {"fast", Quality::kFast}}))
+      .add_option(
+          "--quality", config.quality,
+          fmt::format("full: 10 steps of 4 draws, as the thesis has it; fast: the steps and "
+                      "draws that the weights' metadata say lose nothing, and none where "
+                      "none was ever chosen; auto: fast, but full with --gate thesis [{}]",
+                      config.quality == Quality::kAuto ? "auto" : "full"))
+      ->transform(choice<Quality>(
+          {{"auto", Quality::kAuto}, {"full", Quality::kFull}, {"fast", Quality::kFast}}))
       ->excludes(steps)
       ->excludes(draws)
       ->type_name("QUALITY");

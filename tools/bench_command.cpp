@@ -171,6 +171,7 @@ void add_bench_command(CLI::App& app, support::ExitCode& exit_code) {
   auto* command = support::add_command(app, "bench", "Milliseconds a frame, stage by stage");
   command->add_option("FRAME", options->frame,
                       "A frame folder [the one that ships], or a folder of them");
+  options->config.quality = Quality::kFull;  // what a device takes is to be measured
   support::add_model_options(*command, options->config);
   command
       ->add_option("--frames", options->frames,

@@ -273,7 +273,10 @@ void add_estimate_command(CLI::App& app, support::ExitCode& exit_code) {
   for (const char* of_one : {"--first-end", "--end", "--previous", "--curve", "--stream"}) {
     command->get_option(of_one)->excludes(ropes);
   }
-  command->add_flag("--tensors", options->tensors, "Write the model's tensors as .npy as well")
+  command
+      ->add_flag("--tensors", options->tensors,
+                 "Write the model's tensors as .npy as well; with --quality full, if not said "
+                 "otherwise")
       ->excludes(ropes);
   command
       ->add_option("--overlay", options->field_overlay,
@@ -284,7 +287,11 @@ void add_estimate_command(CLI::App& app, support::ExitCode& exit_code) {
       ->type_name("WHAT");
   command->add_flag("--quiet", options->quiet, "Print errors only");
   support::add_recording_options(*command, options->recordings);
-  command->callback([options, &exit_code] { exit_code = run(*options); });
+  command->callback([options, command, &exit_code] {
+    const bool said = command->count("--quality") > 0;
+    if (options->tensors && !said) options->config.quality = Quality::kFull;
+    exit_code = run(*options);
+  });
 }
 
 }  // namespace flowdlo::tools

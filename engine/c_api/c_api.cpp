@@ -27,6 +27,7 @@ namespace {
 
 static_assert(FLOWDLO_NODES == kNodes);
 static_assert(FLOWDLO_QUALITY_FAST == static_cast<int>(Quality::kFast));
+static_assert(FLOWDLO_QUALITY_AUTO == static_cast<int>(Quality::kAuto));
 static_assert(FLOWDLO_PRIOR_THESIS == static_cast<int>(PriorChoice::kThesis));
 static_assert(FLOWDLO_PRIOR_REFINED == static_cast<int>(PriorChoice::kRefined));
 static_assert(FLOWDLO_GATE_THESIS == static_cast<int>(GateChoice::kThesis));

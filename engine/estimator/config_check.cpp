@@ -30,7 +30,7 @@ Result<void> check(const Config& config) {
          config.max_width);
   expect(config.max_height >= 1 && config.max_height <= 4096, "max_height", "1 to 4096",
          config.max_height);
-  expect_known(config.quality, Quality::kFast, "quality");
+  expect_known(config.quality, Quality::kAuto, "quality");
   expect_known(config.prior, PriorChoice::kRefined, "prior");
   expect_known(config.gate, GateChoice::kCalibrated, "gate");
   expect_known(config.field, FieldChoice::kStrands, "field");

@@ -22,8 +22,13 @@ constexpr int kCloudShare = 4;
 
 Config resolved(const Config& config, const weights::Metadata& metadata) {
   Config result = config;
-  if (config.quality == Quality::kFull) return result;
   const Config full;
+  if (config.quality == Quality::kAuto) {
+    const bool usual = config.euler_steps == full.euler_steps && config.draws == full.draws;
+    const bool fast = usual && config.gate != GateChoice::kThesis;
+    result.quality = fast ? Quality::kFast : Quality::kFull;
+  }
+  if (result.quality == Quality::kFull) return result;
   result.euler_steps = metadata.fast_steps > 0 ? metadata.fast_steps : full.euler_steps;
   result.draws = metadata.fast_draws > 0 ? metadata.fast_draws : full.draws;
   return result;

@@ -14,7 +14,7 @@
 
 namespace flowdlo::estimator {
 
-/// With K and D as the quality has them.
+/// With K and D in use, and kFull or kFast for kAuto.
 [[nodiscard]] Config resolved(const Config& config, const weights::Metadata& metadata);
 
 /// How paths become priors: as the configuration says, or the weights.

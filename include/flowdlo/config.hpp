@@ -39,6 +39,8 @@ enum class Quality {
   kFull,  ///< Config::euler_steps and Config::draws
   kFast,  ///< the K and D that, measured, lose nothing: the weights' metadata hold them; and none
           ///< where the calibrated gate has a strand field, with which it never took a draw
+  kAuto,  ///< kFast; kFull where Config::euler_steps or draws is not its default, and where
+          ///< Config::gate is kThesis, which chooses among draws
 };
 
 /// Most ropes of one frame that are told apart.
@@ -56,7 +58,7 @@ struct Config {
   /// UUID, as `flowdlo devices` prints them.
   std::string device = "auto";
 
-  Quality quality = Quality::kFull;  ///< kFast takes the place of the next two
+  Quality quality = Quality::kAuto;  ///< kFast takes the place of the next two
   int euler_steps = 10;              ///< K in Eq. (3.26); 1..64
   int draws = 4;                     ///< Gaussian sources a frame, Sec. 4.1.3; 1..64
   std::uint64_t seed = 0;            ///< of the sources x_0; same seed and device: the same bits

@@ -339,6 +339,7 @@ void add_eval_command(CLI::App& app, support::ExitCode& exit_code) {
                       "Folders of frame folders, frame folders, or ROS 1 bags");
   command->add_option("--out", options->out, "For tables, rows, figures and report.html")
       ->type_name("DIR");
+  options->config.quality = Quality::kFull;  // the tables are of draws as well
   support::add_model_options(*command, options->config);
   add_contender_options(*command, options->contenders);
   add_results_option(*command, options->results);

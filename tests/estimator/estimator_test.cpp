@@ -90,6 +90,23 @@ TEST(Create, QualityFastOfWeightsThatSayNothingIsFull) {
   EXPECT_EQ(estimator.draws(), 4);
 }
 
+TEST(Create, QualityAutoIsFastUnlessStepsDrawsOrTheThesisGateAreAskedFor) {
+  const test::TemporaryFolder scratch;
+  const auto file = scratch.path() / "fast.fdw";
+  ASSERT_TRUE(set_fast_quality(FLOWDLO_WEIGHTS, 3, 1, file));
+  const Config config{.weights = file, .device = "cpu"};
+  EXPECT_EQ(make(config).euler_steps(), 3);
+  EXPECT_EQ(make(config).draws(), 1);
+  Config two_draws = config;
+  two_draws.draws = 2;
+  EXPECT_EQ(make(two_draws).euler_steps(), 10);
+  EXPECT_EQ(make(two_draws).draws(), 2);
+  Config by_thesis = config;
+  by_thesis.gate = GateChoice::kThesis;
+  EXPECT_EQ(make(by_thesis).euler_steps(), 10);
+  EXPECT_EQ(make(by_thesis).draws(), 4);
+}
+
 TEST(Estimate, FollowsTheRopeFromEndToEnd) {
   const WaveFrame wave;
   auto estimator = make(cpu());

@@ -9,6 +9,7 @@
 #include <set>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "frame/centerline_csv.hpp"
 #include "frame/temporary_folder.hpp"
@@ -194,6 +195,29 @@ TEST(EstimateCommand, TensorsAreWrittenOnRequest) {
   }
   EXPECT_THAT(test::read_text(results(scratch.path(), "rope") / "mask_field.npy"),
               HasSubstr("(4, 30, 40)"));
+}
+
+TEST(EstimateCommand, TakesTheWeightsOwnDrawsUnlessStepsTensorsOrAllOfThemAreAskedFor) {
+  const TemporaryFolder scratch;
+  const auto frame = write_frame(scratch.path()).string();
+  const auto file = (scratch.path() / "fast.fdw").string();
+  ASSERT_EQ(test::run_flowdlo(scratch.path(), {"weights", "set-fast", FLOWDLO_WEIGHTS, file,
+                                               "--steps", "1", "--draws", "2"})
+                .exit_code,
+            0);
+  const auto draws_with = [&](const std::vector<std::string>& options) {
+    std::vector<std::string> line{"estimate", frame, "--out",     (scratch.path() / "out").string(),
+                                  "--device", "cpu", "--weights", file};
+    line.insert(line.end(), options.begin(), options.end());
+    EXPECT_EQ(test::run_flowdlo(scratch.path(), line).exit_code, 0);
+    return estimate_json_of(scratch.path(), "rope")["draws"].size();
+  };
+  EXPECT_EQ(draws_with({}), 2U);
+  EXPECT_EQ(draws_with({"--quality", "full"}), 4U);
+  EXPECT_EQ(draws_with({"--steps", "10"}), 4U) << "also where it is what full has";
+  EXPECT_EQ(draws_with({"--tensors"}), 4U);
+  EXPECT_EQ(draws_with({"--tensors", "--quality", "fast"}), 2U);
+  EXPECT_EQ(draws_with({"--gate", "thesis"}), 4U);
 }
 
 TEST(EstimateCommand, TheStrandFieldIsWrittenAndDrawnOnRequest) {

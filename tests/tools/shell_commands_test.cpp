@@ -88,7 +88,7 @@ TEST_F(BashCompletion, OffersEveryOptionOfTheHelp) {
 
 TEST_F(BashCompletion, OffersTheChoicesOfAnOption) {
   EXPECT_EQ(offered_by_bash(scratch_.path(), {"estimate", "frame", "--quality", ""}),
-            (std::set<std::string>{"full", "fast"}));
+            (std::set<std::string>{"auto", "full", "fast"}));
   EXPECT_EQ(offered_by_bash(scratch_.path(), {"eval", "set", "--gate", "c"}),
             (std::set<std::string>{"calibrated"}));
 }
@@ -180,10 +180,10 @@ TEST(Help, ShowsNamesOfChoicesAndTakesNoNumbers) {
   for (const char* command : {"estimate", "bench", "eval", "synth", "mask"}) {
     EXPECT_THAT(run_flowdlo(scratch.path(), {command, "--help"}).out, Not(HasSubstr("->")));
   }
-  EXPECT_THAT(run_flowdlo(scratch.path(), {"estimate", "--help"}).out, HasSubstr("full|fast"));
+  EXPECT_THAT(run_flowdlo(scratch.path(), {"estimate", "--help"}).out, HasSubstr("auto|full|fast"));
   const auto number = run_flowdlo(scratch.path(), {"bench", "--quality", "1"});
   EXPECT_EQ(number.exit_code, 2);
-  EXPECT_THAT(number.err, HasSubstr("expected full|fast, got \"1\""));
+  EXPECT_THAT(number.err, HasSubstr("expected auto|full|fast, got \"1\""));
 }
 
 }  // namespace
