@@ -111,8 +111,10 @@ struct NodeRows {
   std::vector<double> log_m;
 };
 
+/// None where several ropes lie in the mask.
 NodeRows node_rows(const GateSample& sample, const Outcome& outcome, double probability,
                    std::size_t first) {
+  if (sample.several) return {};
   const gate::NodeFeatures features(sample.candidates, outcome.returned, outcome.scores,
                                     outcome.hypothesis, probability);
   const auto off_m = node_errors_m(sample.answer(chosen(outcome)), sample.truth);

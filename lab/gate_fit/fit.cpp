@@ -209,6 +209,7 @@ std::array<double, kNodes> node_errors_m(const Centerline& nodes, const Centerli
 }
 
 std::vector<double> errors_m(const GateSample& sample) {
+  if (sample.several) return std::vector<double>(sample.candidates.size(), kMostError_m);
   std::vector<double> errors;
   for (std::size_t i = 0; i < sample.candidates.size(); ++i) {
     const auto off_m = node_errors_m(sample.answer(i), sample.truth);

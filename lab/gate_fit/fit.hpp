@@ -8,7 +8,8 @@
 
 namespace flowdlo::lab {
 
-/// Mean index error of what is returned of each candidate, Eq. (4.1), in the better direction.
+/// Mean index error of what is returned of each candidate, Eq. (4.1), in the better direction;
+/// where several ropes lie in the mask, the largest that counts.
 [[nodiscard]] std::vector<double> errors_m(const GateSample& sample);
 
 /// [64] distances from the truth in the better direction.

@@ -67,6 +67,7 @@ std::optional<GateSample> measure(const synth::SyntheticFrame& scene, flow::Samp
   sample.scenario = scene.meta.scenario;
   sample.easy = scene.meta.easy();
   sample.hard = scene.meta.hard();
+  sample.several = scene.ropes.size() > 1;
   sample.truth = eval::canonical(scene.truth());
   threads::Pool alone(1);
   const auto look =

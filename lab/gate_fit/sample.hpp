@@ -22,6 +22,7 @@ struct GateSample {
   std::string scenario;
   bool easy = false;
   bool hard = false;
+  bool several = false;                     ///< ropes lie in the mask, and no candidate is right
   Centerline truth{};                       ///< canonical direction
   std::vector<gate::Candidate> candidates;  ///< as estimator::list_candidates lists them
   std::vector<Centerline> refined;  ///< [candidates] what is returned of each; empty: its own nodes

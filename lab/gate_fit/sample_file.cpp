@@ -79,6 +79,7 @@ Json to_json(const GateSample& sample) {
       {"index", sample.index}, {"scenario", sample.scenario},       {"easy", sample.easy},
       {"hard", sample.hard},   {"truth", nodes_json(sample.truth)}, {"candidates", Json::array()}};
   json["doubted"] = sample.doubted;
+  json["several"] = sample.several;
   json["refined"] = Json::array();
   for (const Centerline& nodes : sample.refined) json["refined"].push_back(nodes_json(nodes));
   for (const gate::Candidate& candidate : sample.candidates) {
@@ -99,6 +100,7 @@ GateSample sample_from(const Json& json) {
   json.at("hard").get_to(sample.hard);
   sample.truth = nodes_from(json.at("truth"));
   json.at("doubted").get_to(sample.doubted);
+  sample.several = json.value("several", false);
   for (const Json& nodes : json.at("refined")) sample.refined.push_back(nodes_from(nodes));
   for (const Json& entry : json.at("candidates")) {
     gate::Candidate candidate;

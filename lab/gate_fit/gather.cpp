@@ -1,0 +1,275 @@
+#include "gate_fit/gather.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <utility>
+
+#include "estimator/device_choice.hpp"
+#include "field/network.hpp"
+#include "flow/sampler.hpp"
+#include "flowdlo/weights.hpp"
+#include "gate_fit/sample_file.hpp"
+#include "one_rope/two_ropes.hpp"
+#include "progress_bar.hpp"
+#include "reference/program.hpp"
+#include "refine/network.hpp"
+#include "survey/in_parallel.hpp"
+#include "synth/synthetic_frame.hpp"
+#include "threads/count.hpp"
+
+namespace flowdlo::lab {
+namespace {
+
+constexpr std::uint64_t kLengthKnownEvery = 4;
+constexpr std::uint64_t kApart = 500000;  // between scenes with and without the model
+constexpr const char* kPairs = "pairs";   // a split of two drawn ropes in one mask
+constexpr std::uint64_t kBareEvery = 12;  // frames of which one, two or three lack something
+constexpr int kPixels = 1280 * 720;
+
+/// Scenes of another kind, one on so many of the split.
+struct Extra {
+  const char* split;
+  int on;
+  bool bare;
+};
+
+constexpr std::array<Extra, 4> kExtras{
+    {{"thesis", 4, false}, {"drawn", 4, true}, {"several", 8, true}, {kPairs, 8, true}}};
+
+/// Scenes of one split and part, with or without the model.
+struct Batch {
+  SampleOrigin origin;
+  int scenes = 0;
+  std::string file;   ///< empty: keep nothing
+  bool bare = false;  ///< some frames lack what some cameras do not give
+};
+
+/// Every so many training frames come with the rope's length, so that the fit learns what it is
+/// worth.
+double known_length_m(const SampleOrigin& origin, std::uint64_t index, double length_m) {
+  return origin.part == "training" && index % kLengthKnownEvery == 0 ? length_m : 0;
+}
+
+/// Some frames come without a picture, some with depth on the mask alone, some with neither: what
+/// a strand field says of them is weighed as well.
+void lay_bare(FrameFolder& frame, std::uint64_t index) {
+  const std::uint64_t turn = index % kBareEvery;
+  const bool both = turn == 5;
+  if (both || turn == 1 || turn == 7) frame.color_bgr.clear();
+  if (!both && turn != 3 && turn != 9) return;
+  for (std::size_t i = 0; i < frame.depth_m.size(); ++i) {
+    if (frame.mask[i] == 0) frame.depth_m[i] = 0;
+  }
+}
+
+Result<flow::Sampler> sampler_of(const GatherConfig& config, const Model& model) {
+  const auto back_end = estimator::cpu_back_end(config.threads);
+  return flow::Sampler::create(
+      model.weights, back_end.make_program,
+      {.draws = config.draws,
+       .steps = config.steps,
+       .capacity = {
+           .cloud_points = kPixels / 4, .field_texels = kPixels / 4, .image_pixels = kPixels}});
+}
+
+/// One thread's own.
+struct Networks {
+  std::optional<field::Network> field{};
+  std::optional<refine::Network> refine{};
+};
+
+/// None without weights.
+Result<Networks> networks_of(const Model& model, bool unrefined) {
+  Networks networks;
+  if (!model.field) return networks;
+  const auto make_program = [] { return reference::create_program(1); };
+  auto field = field::Network::create(model.field, make_program);
+  if (!field) return field.error();
+  networks.field = *std::move(field);
+  if (unrefined || !model.field->refine) return networks;
+  auto refine = refine::Network::create(*model.field->refine, make_program);
+  if (!refine) return refine.error();
+  networks.refine = *std::move(refine);
+  return networks;
+}
+
+/// A split that ends goes on with its next seed.
+Result<synth::SyntheticFrame> scene_of(const SampleOrigin& origin, std::uint64_t index,
+                                       bool color) {
+  const synth::Split split = *synth::split_of(origin.split);
+  const synth::Part part = *synth::part_of(origin.part);
+  const std::uint64_t count = synth::scene_count(split, part);
+  return synth::make_frame(split, part, count > 0 ? index / count : 0,
+                           count > 0 ? index % count : index, {.color = color});
+}
+
+using MaybeFrame = Result<std::optional<synth::SyntheticFrame>>;
+
+/// Two drawn ropes in one mask, crossing, apart or touching; nothing where they find no room.
+MaybeFrame pair_of(const SampleOrigin& origin, std::uint64_t index, bool color) {
+  SampleOrigin drawn = origin;
+  drawn.split = "drawn";
+  auto first = scene_of(drawn, 2 * index, color);
+  if (!first) return first.error();
+  const auto second = scene_of(drawn, 2 * index + 1, color);
+  if (!second) return second.error();
+  constexpr auto kParted = static_cast<std::uint64_t>(Arrangement::kJoined);
+  auto both =
+      two_ropes(first->folder, second->folder, static_cast<Arrangement>(index % kParted), index);
+  if (!both) return std::optional<synth::SyntheticFrame>();
+  first->folder = *std::move(both);
+  first->ropes.push_back(second->ropes.front());
+  first->meta.index = index;
+  return std::optional(*std::move(first));
+}
+
+MaybeFrame frame_of(const Batch& batch, std::uint64_t index, bool color) {
+  const SampleOrigin& origin = batch.origin;
+  if (origin.split == kPairs) return pair_of(origin, index, color);
+  auto scene = scene_of(origin, index, color);
+  if (!scene) return scene.error();
+  return std::optional(*std::move(scene));
+}
+
+using Measured = Result<std::optional<GateSample>>;
+
+Measured measured_one(const GatherConfig& config, const Batch& batch, const Model& model,
+                      flow::Sampler* sampler, Networks& networks, std::uint64_t number) {
+  const std::uint64_t index = batch.origin.first + number;
+  // Colours take longest, and nothing but the strand field asks for them.
+  auto made = frame_of(batch, index, networks.field.has_value());
+  if (!made) return made.error();
+  if (!*made) return std::optional<GateSample>();
+  auto& scene = *made;
+  if (batch.bare) lay_bare(scene->folder, index);
+  const auto kind = model.weights->metadata.variant.prior_kind;
+  const double length_m = known_length_m(batch.origin, index, scene->meta.length_m);
+  return measure(*scene, sampler, networks.field ? &*networks.field : nullptr,
+                 networks.refine ? &*networks.refine : nullptr,
+                 model.fitted ? &*model.fitted : nullptr, config.draws, kind, length_m);
+}
+
+/// Scenes `done` and later; several at a time where there is no model, which takes threads itself.
+Result<Samples> measured(const GatherConfig& config, const Batch& batch, int done) {
+  const auto model = open_model(config);
+  if (!model) return model.error();
+  std::optional<flow::Sampler> sampler;
+  if (batch.origin.draws > 0) {
+    auto made = sampler_of(config, *model);
+    if (!made) return made.error();
+    sampler = *std::move(made);
+  }
+  support::ProgressBar bar(batch.origin.draws > 0 ? "scenes" : "scenes without model",
+                           batch.scenes - done, config.quiet);
+  const int threads = sampler ? 1 : threads::cores();
+  Samples samples;
+  for (auto& one : survey::in_parallel<std::optional<GateSample>>(
+           {static_cast<std::uint64_t>(done), static_cast<std::uint64_t>(batch.scenes - done)},
+           threads, [&] { return networks_of(*model, config.unrefined); },
+           [&](Networks&networks, std::uint64_t number) {
+             return measured_one(config, batch, *model, sampler ? &*sampler : nullptr, networks,
+                                 number);
+           },
+           [&] { bar.advance(); })) {
+    if (!one) return one.error();
+    if (*one) samples.push_back(**std::move(one));
+  }
+  return samples;
+}
+
+/// From the file as far as it reaches, the rest anew.
+Result<Samples> samples_of(const GatherConfig& config, const Batch& batch) {
+  SampleFile kept;
+  if (!batch.file.empty()) {
+    auto read = read_samples(batch.file, batch.origin);
+    if (!read) return read.error();
+    kept = *std::move(read);
+  }
+  if (kept.scenes < batch.scenes) {
+    auto more = measured(config, batch, kept.scenes);
+    if (!more) return more.error();
+    kept.samples.insert(kept.samples.end(), more->begin(), more->end());
+    kept.scenes = batch.scenes;
+    if (!batch.file.empty()) {
+      auto written = write_samples(batch.file, batch.origin, kept);
+      if (!written) return written.error();
+    }
+  }
+  std::erase_if(kept.samples, [&](const GateSample& sample) {
+    return sample.index >= batch.origin.first + static_cast<std::uint64_t>(batch.scenes);
+  });
+  return std::move(kept.samples);
+}
+
+std::string field_of(const GatherConfig& config) {
+  if (config.field.empty()) return "";
+  const auto weights = weights::load_field(config.field);
+  if (!weights) return "";
+  const bool refines = weights->refine && !config.unrefined;
+  return weights->notes + (refines ? "; refined: " + weights->refine->notes : "");
+}
+
+}  // namespace
+
+Result<Model> open_model(const GatherConfig& config) {
+  auto loaded = weights::load(config.weights);
+  if (!loaded) return loaded.error();
+  Model model;
+  model.weights = std::make_shared<const weights::Weights>(*std::move(loaded));
+  if (!config.field.empty()) {
+    auto field = weights::load_field(config.field);
+    if (!field) return field.error();
+    model.field = std::make_shared<const weights::FieldWeights>(*std::move(field));
+  }
+  model.fitted = gate::Fitted::of_weights(model.weights->calibration,
+                                          model.field ? model.field->calibration : std::nullopt);
+  return model;
+}
+
+Result<Samples> with_model(const GatherConfig& config, int scenes) {
+  const auto info = inspect_weights(config.weights);
+  if (!info) return info.error();
+  return samples_of(config, {.origin = {.weights_sha256 = info->sha256,
+                                        .field = field_of(config),
+                                        .split = config.split,
+                                        .part = config.part,
+                                        .first = config.first,
+                                        .draws = config.draws,
+                                        .steps = config.steps},
+                             .scenes = scenes,
+                             .file = config.cache.empty() ? "" : config.cache + ".jsonl"});
+}
+
+Result<Samples> without_model(const GatherConfig& config, int scenes) {
+  if (scenes == 0) return Samples{};
+  return samples_of(config, {.origin = {.weights_sha256 = "",
+                                        .field = field_of(config),
+                                        .split = config.split,
+                                        .part = config.part,
+                                        .first = config.first + kApart},
+                             .scenes = scenes,
+                             .file = config.cache.empty() ? "" : config.cache + "_priors.jsonl",
+                             .bare = true});
+}
+
+Result<Samples> beside_split(const GatherConfig& config, int scenes) {
+  Samples all;
+  for (const Extra& extra : kExtras) {
+    if (scenes == 0) break;
+    auto samples = samples_of(
+        config,
+        {.origin = {.weights_sha256 = "",
+                    .field = field_of(config),
+                    .split = extra.split,
+                    .part = config.part},
+         .scenes = scenes / extra.on,
+         .file = config.cache.empty() ? "" : fmt::format("{}_{}.jsonl", config.cache, extra.split),
+         .bare = extra.bare});
+    if (!samples) return samples.error();
+    all.insert(all.end(), samples->begin(), samples->end());
+  }
+  return all;
+}
+
+}  // namespace flowdlo::lab
