@@ -20,7 +20,7 @@
 namespace flowdlo {
 namespace {
 
-constexpr float kHalfWidth_m = 0.006F;  // of the drawn rope, whose ends are cut aslant
+constexpr float kHalfWidth_m = 0.006F;  // of the drawn rope
 
 namespace fs = std::filesystem;
 
@@ -58,8 +58,11 @@ TEST(FieldChoice, WeightsThatAreNoneAreRefusedUnlessTheFieldIsOff) {
   EXPECT_TRUE(Estimator::create(config));
 }
 
+/// Its ends are a rope's, not those of what an occluder leaves.
+testing::WaveFrame clear_wave() { return testing::WaveFrame(320, 240, 9.0F, true); }
+
 TEST(FieldChoice, AClearFrameIsReadOnceWithItAndHasTheSameNodesWithoutIt) {
-  const testing::WaveFrame wave;
+  const testing::WaveFrame wave = clear_wave();
   Config config = small(FLOWDLO_DEFAULT_WEIGHTS);
   config.field = FieldChoice::kStrands;
   auto with = Estimator::create(config);
@@ -109,7 +112,7 @@ TEST(FieldChoice, StrandsThatTheMaskMergesAreToldApartWithIt) {
 }
 
 TEST(FieldChoice, WithQualityFastTheModelIsAskedWithoutAFieldAlone) {
-  const testing::WaveFrame clear;
+  const testing::WaveFrame clear = clear_wave();
   const testing::RingFrame doubtful;
   Config config = small(FLOWDLO_DEFAULT_WEIGHTS);
   auto full = Estimator::create(config);
