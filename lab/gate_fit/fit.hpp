@@ -16,12 +16,25 @@ namespace flowdlo::lab {
 [[nodiscard]] std::array<double, kNodes> node_errors_m(const Centerline& nodes,
                                                        const Centerline& truth);
 
+/// Mean errors over scenes that the scores were not fitted to, cm; each counts 10 cm at most, and
+/// several ropes in one mask count nothing.
+struct Unseen {
+  double first_cm = 0;   ///< of the best prior of the first reading,
+  double chosen_cm = 0;  ///< of what is chosen,
+  double best_cm = 0;    ///< and of the best there was
+};
+
+struct GateFit {
+  gate::GateWeights weights;
+  Unseen unseen;  ///< of `samples`
+};
+
 /// `samples` hold at least five. What one stage learns from another's answers, it learns from
 /// answers to scenes which that stage was not fitted on. All learn from `also` as well, but the
 /// coverage of sigma_m is that of `samples`. With `choice` what those weights choose is kept, which
 /// were fitted to other scenes, and confidence and sigma_m alone are fitted to it.
-[[nodiscard]] gate::GateWeights fit_gate(const std::vector<GateSample>& samples,
-                                         const std::vector<GateSample>& also = {},
-                                         const gate::GateWeights* choice = nullptr);
+[[nodiscard]] GateFit fit_gate(const std::vector<GateSample>& samples,
+                               const std::vector<GateSample>& also = {},
+                               const gate::GateWeights* choice = nullptr);
 
 }  // namespace flowdlo::lab

@@ -98,7 +98,9 @@ int fit(const Options& options) {
   }
   lab::Samples all = *samples;
   all.insert(all.end(), more->begin(), more->end());
-  auto weights = lab::fit_gate(all, *also, options.keep_choice ? &*kept : nullptr);
+  const lab::GateFit fitted = lab::fit_gate(all, *also, options.keep_choice ? &*kept : nullptr);
+  const lab::Unseen& unseen = fitted.unseen;
+  auto weights = fitted.weights;
   if (options.keep_draws) {
     weights.draw = kept->draw;
     weights.draw_margin = kept->draw_margin;
@@ -113,7 +115,10 @@ int fit(const Options& options) {
       info ? info->sha256.substr(0, 16) : "unknown");
   const auto written = write_fitted(options, flowdlo::gate::calibration_of(weights, notes));
   if (!written) return failed(written.error());
-  fmt::print(stderr, "{}",
+  fmt::print(stderr,
+             "Of the {} scenes of {}, each by a fit that did not see it, at most 10 cm each: first "
+             "prior {:.3f} cm, chosen {:.3f}, best {:.3f}.\n\n{}",
+             all.size(), options.gather.split, unseen.first_cm, unseen.chosen_cm, unseen.best_cm,
              lab::report(
                  *samples, [&](auto) -> const auto& { return weights; }));
   return 0;

@@ -44,7 +44,7 @@ std::vector<GateSample> scenes(int count) {
 }
 
 TEST(FitGate, FindsTheHypothesisThatExplainsTheMaskAndLeavesBadDrawsAlone) {
-  const auto weights = fit_gate(scenes(60));
+  const auto weights = fit_gate(scenes(60)).weights;
   for (const GateSample& sample : scenes(60)) {
     const auto errors = errors_m(sample);
     const auto choice = gate::choose_calibrated(sample.candidates, weights);
@@ -58,14 +58,14 @@ TEST(FitGate, ChangesNothingWhereNoRunnerUpIsEverBetter) {
   std::erase_if(samples, [](const GateSample& sample) {
     return sample.candidates.front().tube.mask_recall < 1;
   });
-  const auto weights = fit_gate(samples);
+  const auto weights = fit_gate(samples).weights;
   for (const GateSample& sample : samples) {
     EXPECT_EQ(gate::choose_calibrated(sample.candidates, weights).chosen, 0U);
   }
 }
 
 TEST(FitGate, SaysHowOftenItIsClose) {
-  const auto weights = fit_gate(scenes(60));
+  const auto weights = fit_gate(scenes(60)).weights;
   double mean = 0;
   for (const GateSample& sample : scenes(60)) {
     mean += gate::choose_calibrated(sample.candidates, weights).probability / 60;
@@ -90,7 +90,7 @@ std::vector<GateSample> noisy_scenes(int count) {
 
 TEST(FitGate, CoversAboutTwoThirdsOfTheNodesByOneSigmaAndNearlyAllByTwo) {
   const auto samples = noisy_scenes(200);
-  const auto weights = fit_gate(samples);
+  const auto weights = fit_gate(samples).weights;
   double one = 0;
   double two = 0;
   for (const GateSample& sample : samples) {

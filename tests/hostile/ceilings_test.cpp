@@ -25,8 +25,10 @@ constexpr int kTurns = 3;
 constexpr double kMostPeakMb = 600;
 
 Estimator make() {
-  auto estimator =
-      Estimator::create({.weights = FLOWDLO_DEFAULT_WEIGHTS, .device = "cpu", .threads = 1});
+  auto estimator = Estimator::create({.weights = FLOWDLO_DEFAULT_WEIGHTS,
+                                      .device = "cpu",
+                                      .quality = Quality::kFull,
+                                      .threads = 1});
   if (!estimator) throw std::runtime_error(estimator.error().message);
   return *std::move(estimator);
 }
