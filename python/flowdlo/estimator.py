@@ -34,7 +34,8 @@ class Estimator:
         one that comes with the library.
     device: "auto" takes the best real GPU whose self-test passes, otherwise the CPU; "cpu";
         "vulkan", any Vulkan device; or part of a device's name, or its UUID.
-    quality: "full", or "fast", which takes the place of the next two.
+    quality: "auto", "full", or "fast", which takes the place of the next two. "auto" is "fast",
+        and "full" with steps or draws of your own or with the thesis' gate.
     euler_steps: of the model, 1..64.
     draws: of the model for each frame, 1..64.
     seed: 0..2**64 - 1; the same seed, frame and device give the same bits.
