@@ -201,6 +201,8 @@ support::ExitCode run(EstimateOptions& options) {
     return support::ExitCode::kUsage;
   }
   options.hints = *hints;
+  const bool in_full = options.tensors && options.config.quality == Quality::kAuto;
+  if (in_full) options.config.quality = Quality::kFull;
   put_ropes(options.ropes, options.config);
   const auto frames = support::list_frames(
       options.frames, support::recording_opener(options.recordings, options.quiet));
@@ -287,11 +289,7 @@ void add_estimate_command(CLI::App& app, support::ExitCode& exit_code) {
       ->type_name("WHAT");
   command->add_flag("--quiet", options->quiet, "Print errors only");
   support::add_recording_options(*command, options->recordings);
-  command->callback([options, command, &exit_code] {
-    const bool said = command->count("--quality") > 0;
-    if (options->tensors && !said) options->config.quality = Quality::kFull;
-    exit_code = run(*options);
-  });
+  command->callback([options, &exit_code] { exit_code = run(*options); });
 }
 
 }  // namespace flowdlo::tools

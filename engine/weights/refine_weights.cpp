@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-
 #include "weights/seeded_noise.hpp"
 
 namespace flowdlo::weights {

@@ -14,7 +14,6 @@
 namespace flowdlo::lab {
 namespace {
 
-constexpr double kMostError_m = 0.1;  // worse ones are all alike: a single scene must not decide
 constexpr double kDrawRidge = 0.5;
 constexpr double kHypothesisRidge = 1e-3;
 // Of 4,878 `wide` training scenes, each by a fit that did not see it, what is chosen is 0.622 cm
@@ -203,15 +202,14 @@ void Fitting::conclude(std::size_t sample, const std::vector<double>& scores) {
 
 Unseen Fitting::unseen(std::size_t count) const {
   Unseen mean;
-  double scenes = 0;
   for (std::size_t s = 0; s < count; ++s) {
-    if (samples[s].several) continue;
-    ++scenes;
     mean.first_cm += costs[s].front();
     mean.chosen_cm += costs[s][returned[s][outcomes[s].hypothesis]];
     mean.best_cm += *std::min_element(costs[s].begin(), costs[s].end());
   }
-  for (double* const sum : {&mean.first_cm, &mean.chosen_cm, &mean.best_cm}) *sum /= scenes;
+  for (double* const sum : {&mean.first_cm, &mean.chosen_cm, &mean.best_cm}) {
+    *sum /= static_cast<double>(count);
+  }
   return mean;
 }
 

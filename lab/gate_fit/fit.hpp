@@ -16,8 +16,11 @@ namespace flowdlo::lab {
 [[nodiscard]] std::array<double, kNodes> node_errors_m(const Centerline& nodes,
                                                        const Centerline& truth);
 
-/// Mean errors over scenes that the scores were not fitted to, cm; each counts 10 cm at most, and
-/// several ropes in one mask count nothing.
+/// Worse errors are all alike to the fit: a single scene must not decide.
+inline constexpr double kMostError_m = 0.1;
+
+/// Mean errors over scenes that the scores were not fitted to, cm; each counts kMostError_m at
+/// most.
 struct Unseen {
   double first_cm = 0;   ///< of the best prior of the first reading,
   double chosen_cm = 0;  ///< of what is chosen,

@@ -115,12 +115,14 @@ int fit(const Options& options) {
       info ? info->sha256.substr(0, 16) : "unknown");
   const auto written = write_fitted(options, flowdlo::gate::calibration_of(weights, notes));
   if (!written) return failed(written.error());
-  fmt::print(stderr,
-             "Of the {} scenes of {}, each by a fit that did not see it, at most 10 cm each: first "
-             "prior {:.3f} cm, chosen {:.3f}, best {:.3f}.\n\n{}",
-             all.size(), options.gather.split, unseen.first_cm, unseen.chosen_cm, unseen.best_cm,
-             lab::report(
-                 *samples, [&](auto) -> const auto& { return weights; }));
+  fmt::print(
+      stderr,
+      "Of the {} scenes of {}, each by a fit that did not see it, at most {:.0f} cm each: first "
+      "prior {:.3f} cm, chosen {:.3f}, best {:.3f}.\n\n{}",
+      all.size(), options.gather.split, 100 * lab::kMostError_m, unseen.first_cm, unseen.chosen_cm,
+      unseen.best_cm,
+      lab::report(
+          *samples, [&](auto) -> const auto& { return weights; }));
   return 0;
 }
 

@@ -24,7 +24,7 @@ namespace {
 constexpr std::uint64_t kLengthKnownEvery = 4;
 constexpr std::uint64_t kApart = 500000;  // between scenes with and without the model
 constexpr const char* kPairs = "pairs";   // a split of two drawn ropes in one mask
-constexpr std::uint64_t kBareEvery = 12;  // frames of which one, two or three lack something
+constexpr std::uint64_t kBareEvery = 12;  // frames of which five lack something
 constexpr int kPixels = 1280 * 720;
 
 /// Scenes of another kind, one on so many of the split.
@@ -56,8 +56,10 @@ double known_length_m(const SampleOrigin& origin, std::uint64_t index, double le
 void lay_bare(FrameFolder& frame, std::uint64_t index) {
   const std::uint64_t turn = index % kBareEvery;
   const bool both = turn == 5;
-  if (both || turn == 1 || turn == 7) frame.color_bgr.clear();
-  if (!both && turn != 3 && turn != 9) return;
+  const bool no_picture = both || turn == 1 || turn == 7;
+  const bool rope_depth_alone = both || turn == 3 || turn == 9;
+  if (no_picture) frame.color_bgr.clear();
+  if (!rope_depth_alone) return;
   for (std::size_t i = 0; i < frame.depth_m.size(); ++i) {
     if (frame.mask[i] == 0) frame.depth_m[i] = 0;
   }
@@ -94,25 +96,13 @@ Result<Networks> networks_of(const Model& model, bool unrefined) {
   return networks;
 }
 
-/// A split that ends goes on with its next seed.
-Result<synth::SyntheticFrame> scene_of(const SampleOrigin& origin, std::uint64_t index,
-                                       bool color) {
-  const synth::Split split = *synth::split_of(origin.split);
-  const synth::Part part = *synth::part_of(origin.part);
-  const std::uint64_t count = synth::scene_count(split, part);
-  return synth::make_frame(split, part, count > 0 ? index / count : 0,
-                           count > 0 ? index % count : index, {.color = color});
-}
-
 using MaybeFrame = Result<std::optional<synth::SyntheticFrame>>;
 
 /// Two drawn ropes in one mask, crossing, apart or touching; nothing where they find no room.
-MaybeFrame pair_of(const SampleOrigin& origin, std::uint64_t index, bool color) {
-  SampleOrigin drawn = origin;
-  drawn.split = "drawn";
-  auto first = scene_of(drawn, 2 * index, color);
+MaybeFrame pair_of(synth::Part part, std::uint64_t index, bool color) {
+  auto first = synth::frame_at(synth::Split::kDrawn, part, 2 * index, {.color = color});
   if (!first) return first.error();
-  const auto second = scene_of(drawn, 2 * index + 1, color);
+  const auto second = synth::frame_at(synth::Split::kDrawn, part, 2 * index + 1, {.color = color});
   if (!second) return second.error();
   constexpr auto kParted = static_cast<std::uint64_t>(Arrangement::kJoined);
   auto both =
@@ -124,10 +114,10 @@ MaybeFrame pair_of(const SampleOrigin& origin, std::uint64_t index, bool color) 
   return std::optional(*std::move(first));
 }
 
-MaybeFrame frame_of(const Batch& batch, std::uint64_t index, bool color) {
-  const SampleOrigin& origin = batch.origin;
-  if (origin.split == kPairs) return pair_of(origin, index, color);
-  auto scene = scene_of(origin, index, color);
+MaybeFrame frame_of(const SampleOrigin& origin, std::uint64_t index, bool color) {
+  const synth::Part part = *synth::part_of(origin.part);
+  if (origin.split == kPairs) return pair_of(part, index, color);
+  auto scene = synth::frame_at(*synth::split_of(origin.split), part, index, {.color = color});
   if (!scene) return scene.error();
   return std::optional(*std::move(scene));
 }
@@ -138,7 +128,7 @@ Measured measured_one(const GatherConfig& config, const Batch& batch, const Mode
                       flow::Sampler* sampler, Networks& networks, std::uint64_t number) {
   const std::uint64_t index = batch.origin.first + number;
   // Colours take longest, and nothing but the strand field asks for them.
-  auto made = frame_of(batch, index, networks.field.has_value());
+  auto made = frame_of(batch.origin, index, networks.field.has_value());
   if (!made) return made.error();
   if (!*made) return std::optional<GateSample>();
   auto& scene = *made;
@@ -242,7 +232,6 @@ Result<Samples> with_model(const GatherConfig& config, int scenes) {
 }
 
 Result<Samples> without_model(const GatherConfig& config, int scenes) {
-  if (scenes == 0) return Samples{};
   return samples_of(config, {.origin = {.weights_sha256 = "",
                                         .field = field_of(config),
                                         .split = config.split,
@@ -256,7 +245,6 @@ Result<Samples> without_model(const GatherConfig& config, int scenes) {
 Result<Samples> beside_split(const GatherConfig& config, int scenes) {
   Samples all;
   for (const Extra& extra : kExtras) {
-    if (scenes == 0) break;
     auto samples = samples_of(
         config,
         {.origin = {.weights_sha256 = "",

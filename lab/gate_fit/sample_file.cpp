@@ -13,7 +13,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr int kFormat = 7;  // rises with what a sample holds
+constexpr int kFormat = 8;  // rises with what a sample holds
 
 /// Calls `field` with the name and value of each number of a candidate.
 template <class Candidate, class Field>
@@ -100,7 +100,7 @@ GateSample sample_from(const Json& json) {
   json.at("hard").get_to(sample.hard);
   sample.truth = nodes_from(json.at("truth"));
   json.at("doubted").get_to(sample.doubted);
-  sample.several = json.value("several", false);
+  json.at("several").get_to(sample.several);
   for (const Json& nodes : json.at("refined")) sample.refined.push_back(nodes_from(nodes));
   for (const Json& entry : json.at("candidates")) {
     gate::Candidate candidate;

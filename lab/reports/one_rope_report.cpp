@@ -121,11 +121,7 @@ class Report {
 /// An empty name: none was made.
 FrameFolder rendered_frame(const Options& options, synth::Split split, std::uint64_t number) {
   const synth::Part part = *synth::part_of(options.part);
-  const std::uint64_t count = synth::scene_count(split, part);
-  auto made =
-      synth::make_frame(split, part, count > 0 ? (options.first + number) / count : 0,
-                        count > 0 ? (options.first + number) % count : options.first + number,
-                        {.color = options.color});
+  auto made = synth::frame_at(split, part, options.first + number, {.color = options.color});
   if (!made) return {};
   made->folder.name = fmt::format("{}_{}", made->meta.scenario, number);
   return std::move(made->folder);

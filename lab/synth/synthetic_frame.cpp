@@ -325,4 +325,11 @@ Result<SyntheticFrame> make_frame(Split split, Part part, std::uint64_t seed, st
   return scene.taken(render);
 }
 
+Result<SyntheticFrame> frame_at(Split split, Part part, std::uint64_t number,
+                                const Render& render) {
+  const std::uint64_t count = scene_count(split, part);
+  if (count == 0) return make_frame(split, part, 0, number, render);
+  return make_frame(split, part, number / count, number % count, render);
+}
+
 }  // namespace flowdlo::synth

@@ -184,4 +184,8 @@ inline constexpr double kDepthScale_m = 1.0e-4;
 [[nodiscard]] Result<SyntheticFrame> make_frame(Split split, Part part, std::uint64_t seed,
                                                 std::uint64_t index, const Render& render = {});
 
+/// Frame `number` of seed 0; a split that ends goes on with its next seed. Fails as make_frame.
+[[nodiscard]] Result<SyntheticFrame> frame_at(Split split, Part part, std::uint64_t number,
+                                              const Render& render = {});
+
 }  // namespace flowdlo::synth
