@@ -49,10 +49,11 @@ std::optional<SeenRope> seen_rope(const strand::Strand& strand, const synth::Tru
 
 }  // namespace
 
-Result<std::optional<RenderedRopes>> rendered_ropes(synth::Part part, std::uint64_t index) {
+Result<std::optional<RenderedRopes>> rendered_ropes(synth::Split split, synth::Part part,
+                                                    std::uint64_t index) {
   synth::Render render;
   render.dense = true;
-  auto frame = synth::make_frame(synth::Split::kSeveral, part, 0, index, render);
+  auto frame = synth::make_frame(split, part, 0, index, render);
   if (!frame) return frame.error();
   RenderedRopes result;
   result.scenario = frame->meta.scenario;

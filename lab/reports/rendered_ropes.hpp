@@ -1,4 +1,4 @@
-// Rendered ropes: scenes of flowdlo synth's several split, as drawn ones are.
+// Rendered ropes: scenes of flowdlo synth's several split, or of one rope, as drawn ones are.
 #pragma once
 
 #include <cstdint>
@@ -16,9 +16,10 @@ struct RenderedRopes {
   RopesScene scene;  ///< of each rope what lies between the first and the last place that shows
 };
 
-/// Scene `index` of that part; empty where a rope leaves the image and comes back, so that it is
-/// not plain how many there are. Fails as synth::make_frame does.
-[[nodiscard]] Result<std::optional<RenderedRopes>> rendered_ropes(synth::Part part,
+/// Scene `index` of that part of `split`, kSeveral or kWide; empty where a rope leaves the image
+/// and comes back, so that it is not plain how many there are. Fails as synth::make_frame does.
+[[nodiscard]] Result<std::optional<RenderedRopes>> rendered_ropes(synth::Split split,
+                                                                  synth::Part part,
                                                                   std::uint64_t index);
 
 }  // namespace flowdlo::lab

@@ -19,6 +19,7 @@
 
 #include "command/report_commands.hpp"
 #include "command_line.hpp"
+#include "geometry/depth.hpp"
 #include "mat/mat_file.hpp"
 #include "reports/rendered_ropes.hpp"
 #include "reports/ropes_outcome.hpp"
@@ -40,10 +41,12 @@ struct Options {
   int most = 5;
   std::string kind;
   std::string rendered = "training";
+  std::string rendered_split = "several";
   int rendered_scenes = 0;
   std::uint64_t rendered_first = 0;
   bool labels = false;
   bool counted = false;
+  bool photograph = false;
   std::string weights;
   std::string field;
   std::string overlays;
@@ -130,16 +133,16 @@ struct Tally {
                 fmt::format("{:.1f} %", correct.mean())});
     }
     survey::Table readings({"second reading", "ropes", "right", "odds: a + b lead"});
-    for (const auto& [witness, ropes] : told) {
+    for (const auto& [witness, told_of] : told) {
       const auto correct =
-          std::count_if(ropes.begin(), ropes.end(), [](const Told& one) { return one.right; });
-      const auto odds = fitted(ropes);
+          std::count_if(told_of.begin(), told_of.end(), [](const Told& one) { return one.right; });
+      const auto odds = fitted(told_of);
       readings.add({witness == Witness::kNone     ? "none"
                     : witness == Witness::kAgrees ? "agrees"
                                                   : "differs",
-                    std::to_string(ropes.size()),
+                    std::to_string(told_of.size()),
                     fmt::format("{:.1f} %", survey::percent(static_cast<double>(correct),
-                                                            static_cast<double>(ropes.size()))),
+                                                            static_cast<double>(told_of.size()))),
                     fmt::format("{:.2f} {:+.2f}", odds[0], odds[1])});
     }
     fmt::print("{}{}", bins.text(), readings.text());
@@ -207,6 +210,18 @@ bool draw(const std::string& file, const RopesScene& scene, const RopesOutcome& 
   return mat::save_png(file, picture).has_value();
 }
 
+// As who has a photograph alone makes a frame of it: one depth everywhere, that of the ropes.
+void flatten(RopesScene& scene) {
+  survey::Values depths_m;
+  for (std::size_t p = 0; p < scene.image.mask.size(); ++p) {
+    const float z = scene.image.depth_m[p];
+    if (scene.image.mask[p] > 127 && geometry::measured(z)) depths_m.add(static_cast<double>(z));
+  }
+  if (depths_m.count() == 0) return;
+  std::fill(scene.image.depth_m.begin(), scene.image.depth_m.end(),
+            static_cast<float>(depths_m.median()));
+}
+
 // What tells ropes apart and estimates them, for as many ropes as are wanted.
 class Answers {
  public:
@@ -247,7 +262,8 @@ class Report {
   explicit Report(const Options& options) : options_(options), answers_(options) {}
 
   // `name` also names the picture.
-  Result<void> add(const RopesScene& scene, const std::string& kind, const std::string& name) {
+  Result<void> add(RopesScene scene, const std::string& kind, const std::string& name) {
+    if (options_.photograph) flatten(scene);
     const auto ropes = static_cast<int>(scene.ropes.size());
     const auto outcome = answers_.of(scene, options_.counted ? ropes : 0);
     if (!outcome) return outcome.error();
@@ -305,10 +321,12 @@ Result<void> add_drawn(const Options& options, Report& report) {
 }
 
 Result<void> add_rendered(const Options& options, Report& report) {
+  const auto split = synth::split_of(options.rendered_split);
+  const bool one = split == synth::Split::kWide;
   int passed_over = 0;
   for (int i = 0; i < options.rendered_scenes; ++i) {
     const std::uint64_t index = options.rendered_first + static_cast<std::uint64_t>(i);
-    const auto made = rendered_ropes(*synth::part_of(options.rendered), index);
+    const auto made = rendered_ropes(*split, *synth::part_of(options.rendered), index);
     if (!made) return made.error();
     if (!*made) {
       ++passed_over;
@@ -316,7 +334,7 @@ Result<void> add_rendered(const Options& options, Report& report) {
     }
     const auto& [scenario, scene] = **made;
     const auto ropes = static_cast<int>(scene.ropes.size());
-    if (ropes < options.least || ropes > options.most) continue;
+    if (!one && (ropes < options.least || ropes > options.most)) continue;
     if (!options.kind.empty() && scenario != options.kind) continue;
     const auto added = report.add(scene, scenario, scenario + "_" + std::to_string(index));
     if (!added) return added;
@@ -366,10 +384,15 @@ void add_ropes_report(CLI::App& program, support::ExitCode& exit_code) {
           },
           "KIND"));
   app.add_option("--rendered", options->rendered,
-                 "Part of flowdlo synth's several split that rendered scenes come from")
+                 "Part of flowdlo synth's split that rendered scenes come from")
       ->capture_default_str()
       ->check(CLI::IsMember({"training", "validation"}))
       ->type_name("PART");
+  app.add_option("--rendered-split", options->rendered_split,
+                 "several, or wide: one rope each, whatever --least and --most say")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"several", "wide"}))
+      ->type_name("SPLIT");
   app.add_option("--rendered-scenes", options->rendered_scenes, "How many of them")
       ->capture_default_str()
       ->check(CLI::Range(0, 1000000));
@@ -377,6 +400,8 @@ void add_ropes_report(CLI::App& program, support::ExitCode& exit_code) {
       ->capture_default_str();
   app.add_flag("--labels", options->labels, "Frame::instances are given");
   app.add_flag("--counted", options->counted, "The number of ropes is given");
+  app.add_flag("--photograph", options->photograph,
+               "One depth everywhere, as who has a photograph alone makes a frame of it");
   app.add_option("--weights", options->weights,
                  "The whole estimator with this model [priors alone]")
       ->check(CLI::ExistingFile)
