@@ -12,9 +12,13 @@
 #include "estimator/rope_crossings.hpp"
 #include "estimator/rope_views.hpp"
 #include "estimator/stopwatch.hpp"
+#include "field/ridge.hpp"
 
 namespace flowdlo::estimator {
 namespace {
+
+// Path::ends_met from which on what seems to be a ring has two ends that touch.
+constexpr float kEndsMet = field::kTipPeak;
 
 Result<void> one_rope(const Frame& frame, const EstimateOne& one, Ropes& result) {
   auto rope = one(frame, nullptr, 1);
@@ -31,6 +35,10 @@ Result<void> several_ropes(const Frame& frame, int ropes, const EstimateOne& one
   if (!parted) return parted.error();
   stage.lap(result.parting_ms);
   const std::size_t count = parted->paths.ropes.size();
+  const path::Path& first = parted->paths.ropes.front();
+  const bool ring = first.closed && first.ends_met < kEndsMet;
+  // All readings of a rope that is alone are the whole frame's; they know rings that nothing parts.
+  if (count == 1 && frame.instances.empty() && !ring) return one_rope(frame, one, result);
   std::vector<std::uint16_t> number(count + 1,
                                     0);  // of each label among those that have an estimate
   std::optional<Error> first_fault;

@@ -18,6 +18,7 @@ struct Path {
   std::vector<std::uint8_t> bridged;       ///< [M] 1 where the sample lies on a link over a gap
   bool ring = false;                       ///< closed: where it begins and ends is a guess
   bool closed = false;                     ///< and nothing shows where: a rope without ends
+  float ends_met = 0;                      ///< [0, 1] how like tips two ends look that close it
   float hidden_ends = 0;                   ///< [0, 1] half for each tip where an occluder begins
   float buried_ends = 0;                   ///< [0, 1] half for each end on another strand
   float width_px = 0;                      ///< of the rope, as the mask was read for this one

@@ -49,6 +49,17 @@ float lead_of(const Traversal& way, const std::vector<RopeSet>& sets, const Stra
   return kMostLead;
 }
 
+// Of a closed way's links the one that most likely joins a rope's two own ends.
+float ends_met(const Traversal& way, const Strands& strands) {
+  float most = 0;
+  for (std::size_t i = 0; way.closed && i < way.enters.size(); ++i) {
+    const StrandEnd& from = strands.end(way.enters[i] ^ 1);
+    const StrandEnd& to = strands.end(way.enters[(i + 1) % way.enters.size()]);
+    most = std::max(most, std::min(from.tip_seen, to.tip_seen));
+  }
+  return most;
+}
+
 // Ways as paths, each drawn once.
 class Drawing {
  public:
@@ -61,6 +72,7 @@ class Drawing {
     if (added) {
       place->second = assemble(way, strands_, region_, frame_);
       place->second.width_px = strands_.width_px;
+      place->second.ends_met = ends_met(way, strands_);
     }
     return place->second;
   }

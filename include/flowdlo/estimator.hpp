@@ -60,7 +60,8 @@ class FLOWDLO_EXPORT Estimator {
 
   /// Each rope of the frame on its own: Config::ropes of them, or one for each label that
   /// Frame::instances has on the mask. Takes as long as estimate() for each; Config::budget_ms is
-  /// for all of them. With Config::ropes = 1 and no labels the one rope is that of estimate().
+  /// for all of them. Without labels the rope is that of estimate() where Config::ropes is 1, and
+  /// where it is 0 and the mask shows one that is no ring.
   /// Fails as estimate() does, and with kNoPath where there are more than kMostRopes, or fewer than
   /// asked for.
   [[nodiscard]] Result<Ropes> estimate_ropes(const Frame& frame);
