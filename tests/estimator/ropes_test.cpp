@@ -27,14 +27,17 @@ using lab::RopesKind;
 using ::testing::HasSubstr;
 using testing::WaveFrame;
 
-Estimator make(int ropes, int threads = 1) {
+Estimator make(int ropes, int threads = 1, const char* field_weights = "") {
   Config config{.weights = FLOWDLO_WEIGHTS, .device = "cpu", .euler_steps = 1, .draws = 1};
   config.ropes = ropes;
   config.threads = threads;
+  config.field_weights = field_weights;
   auto estimator = Estimator::create(config);
   if (!estimator) throw std::runtime_error(estimator.error().message);
   return *std::move(estimator);
 }
+
+Estimator make_with_field(int ropes) { return make(ropes, 1, FLOWDLO_FIELD_WEIGHTS); }
 
 Ropes estimate(Estimator& estimator, const Frame& frame) {
   auto ropes = estimator.estimate_ropes(frame);
@@ -361,15 +364,10 @@ TEST(RopeReadings, OfNoiseTheFieldIsNotAsked) {
 }
 
 TEST(EstimateRopes, TheStrandFieldPartsARingFromARope) {
-  Config config{.weights = FLOWDLO_WEIGHTS, .device = "cpu", .euler_steps = 1, .draws = 1};
-  config.ropes = 0;
-  config.threads = 1;
-  config.field_weights = FLOWDLO_FIELD_WEIGHTS;
-  auto by_field = Estimator::create(config);
-  ASSERT_TRUE(by_field) << by_field.error().message;
+  auto by_field = make_with_field(0);
   for (const std::uint64_t seed : {0, 1, 2}) {
     const auto scene = make_ropes(RopesKind::kRings, 2, seed);
-    const Ropes found = estimate(*by_field, scene.frame());
+    const Ropes found = estimate(by_field, scene.frame());
     ASSERT_EQ(found.ropes.size(), 2U) << seed;
     for (const auto& rope : scene.ropes) {
       const auto true_m = static_cast<double>(geometry::length(rope.truth));
@@ -380,22 +378,9 @@ TEST(EstimateRopes, TheStrandFieldPartsARingFromARope) {
   }
 }
 
-class OneRopeAmongAnyNumber : public ::testing::Test {
- protected:
-  static Estimator made(int ropes) {
-    Config config{.weights = FLOWDLO_WEIGHTS, .device = "cpu"};
-    config.ropes = ropes;
-    config.threads = 1;
-    config.field_weights = FLOWDLO_FIELD_WEIGHTS;
-    auto estimator = Estimator::create(config);
-    if (!estimator) throw std::runtime_error(estimator.error().message);
-    return *std::move(estimator);
-  }
-};
-
-TEST_F(OneRopeAmongAnyNumber, IsEstimatedAsOne) {
-  Estimator any = made(0);
-  Estimator one = made(1);
+TEST(OneRopeAmongAnyNumber, IsEstimatedAsOne) {
+  auto any = make_with_field(0);
+  auto one = make_with_field(1);
   for (const auto kind :
        {lab::Kind::kSimple, lab::Kind::kManyCrossings, lab::Kind::kTouching, lab::Kind::kCoil}) {
     const auto scene = lab::make_scene(kind, 4);
@@ -412,8 +397,8 @@ TEST_F(OneRopeAmongAnyNumber, IsEstimatedAsOne) {
   }
 }
 
-TEST_F(OneRopeAmongAnyNumber, IsARingWhereNothingShowsItsEnds) {
-  Estimator any = made(0);
+TEST(OneRopeAmongAnyNumber, IsARingWhereNothingShowsItsEnds) {
+  auto any = make_with_field(0);
   for (const std::uint64_t seed : {0, 1, 2}) {
     auto scene = make_ropes(RopesKind::kRings, 2, seed);
     for (std::size_t p = 0; p < scene.image.mask.size(); ++p) {  // what shows of the ring alone
@@ -438,8 +423,7 @@ TEST(ToldApart, ARopeThatTheMaskHasAsWellIsSurerThanOneThatItHasNot) {
   for (const float lead : {0.5F, 2.0F, 6.0F}) {
     const float agreed = estimator::told_apart(lead, estimator::Witness::kAgrees);
     const float differs = estimator::told_apart(lead, estimator::Witness::kDiffers);
-    const auto odds = [](float share) { return share / (1 - share); };
-    EXPECT_LT(odds(differs), 0.25F * odds(agreed));
+    EXPECT_LT(differs, 0.7F * agreed);
     EXPECT_GT(differs, 0.2F);
   }
   EXPECT_GT(estimator::told_apart(path::kMostLead, estimator::Witness::kAgrees), 0.97F);
