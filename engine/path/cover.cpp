@@ -123,8 +123,9 @@ bool Cover::meets(Vector2f p, const Vector2f& direction, float reach_px) const {
 }
 
 // Whether what shows beyond `edge` is nearer than the rope only farther on: a table seen aslant,
-// on which the rope lies.
+// on which the rope lies. Another rope's label hides whatever the depth says.
 bool Cover::rises_to(const Vector2f& edge, const Vector2f& direction, float rope_m) const {
+  if (other_rope(edge + kProbeStepPx * direction)) return false;
   const float near = depth_around(edge + kProbeStepPx * direction, false);
   const float far = depth_around(edge + kProbes * kProbeStepPx * direction, false);
   if (near <= 0 || far <= 0) return false;

@@ -145,6 +145,9 @@ TEST(RopePaths, AnotherRopesLabelHidesWhatTheDepthDoesNot) {
   const auto hidden = trace_ropes(frame, 0);
   ASSERT_TRUE(hidden) << hidden.error().message;
   EXPECT_EQ(hidden->ropes.size(), 1U);
+  const auto two = trace_ropes(frame, 2);
+  ASSERT_TRUE(two) << two.error().message;
+  for (const Path& path : two->ropes) EXPECT_EQ(path.hidden_ends, 0.5F);
 }
 
 TEST(RopePaths, AnEmptyMaskIsAnError) {
