@@ -72,8 +72,8 @@ Problem priced(const std::vector<float>& alone, const std::vector<Pair>& pairs) 
   return problem;
 }
 
-// The items that pairs join, directly or through others, in ascending order each.
-std::vector<std::vector<int>> groups_of(const Problem& problem) {
+// The items that pairs join, directly or through others, and things too where chains matter.
+std::vector<std::vector<int>> groups_of(const Problem& problem, bool of_things) {
   std::vector<std::vector<int>> groups;
   std::vector<std::uint8_t> seen(problem.alone.size(), 0);
   for (std::size_t first = 0; first < seen.size(); ++first) {
@@ -81,9 +81,11 @@ std::vector<std::vector<int>> groups_of(const Problem& problem) {
     std::vector<int> group{static_cast<int>(first)};
     seen[first] = 1;
     for (std::size_t i = 0; i < group.size(); ++i) {
-      for (const Partner& with : problem.partners[group[i]]) {
-        if (std::exchange(seen[with.item], 1) == 0) group.push_back(with.item);
-      }
+      const auto add = [&](int item) {
+        if (std::exchange(seen[item], 1) == 0) group.push_back(item);
+      };
+      for (const Partner& with : problem.partners[group[i]]) add(with.item);
+      if (of_things) add(group[i] ^ 1);
     }
     groups.push_back(std::move(group));
   }
@@ -99,12 +101,16 @@ struct Choice {
 // One item after the other is paired or left alone.
 class GroupSearch {
  public:
-  GroupSearch(const Problem& problem, const std::vector<int>& group, std::size_t count)
+  GroupSearch(const Problem& problem, const std::vector<Pair>& pairs, const std::vector<int>& group,
+              std::size_t count, bool closed)
       : problem_(problem),
+        pairs_(pairs),
         group_(group),
         count_(count),
+        closed_(closed),
         words_((group.size() + 63) / 64),
-        place_(problem.alone.size(), 0) {
+        place_(problem.alone.size(), 0),
+        other_end_(closed ? 0 : problem.alone.size(), 0) {
     for (std::size_t i = 0; i < group.size(); ++i) place_[group[i]] = static_cast<int>(i);
   }
 
@@ -148,13 +154,28 @@ class GroupSearch {
     return static_cast<int>(id);
   }
 
+  // [items] where the chain ends that begins with each item that ends one.
+  void find_ends(int id) {
+    for (const int item : group_) other_end_[item] = item ^ 1;
+    for (int at = id; at >= 0; at = states_[at].parent) {
+      if (states_[at].pair < 0) continue;
+      const auto& [a, b, cost] = pairs_[states_[at].pair];
+      const int first = other_end_[a];
+      const int last = other_end_[b];
+      other_end_[first] = last;
+      other_end_[last] = first;
+    }
+  }
+
   template <class Offer>
   void expand(int id, const Offer& offer) {
     const int item = group_[states_[id].next];
+    if (!closed_) find_ends(id);
     offer(push(id, -1, -1, problem_.alone[item]));
     for (const Partner& with : problem_.partners[item]) {
       if (settled(static_cast<std::size_t>(id), place_[with.item])) continue;
-      offer(push(id, with.pair, with.item, with.excess));
+      const bool closes = !closed_ && with.item != (item ^ 1) && other_end_[item] == with.item;
+      if (!closes) offer(push(id, with.pair, with.item, with.excess));
     }
   }
 
@@ -214,10 +235,13 @@ class GroupSearch {
   }
 
   const Problem& problem_;
+  const std::vector<Pair>& pairs_;
   const std::vector<int>& group_;
   std::size_t count_;
+  bool closed_;  // chains may be
   std::size_t words_;
-  std::vector<int> place_;  // [items] in the group
+  std::vector<int> place_;      // [items] in the group
+  std::vector<int> other_end_;  // of the chain that an item ends, for the state that is expanded
   std::vector<State> states_;
   std::vector<Word> settled_;  // [states, words_]
   std::vector<Choice> found_;
@@ -247,15 +271,16 @@ std::vector<Choice> combined(const std::vector<Choice>& left, const std::vector<
 }  // namespace
 
 std::vector<Pairing> cheapest_pairings(const std::vector<float>& alone,
-                                       const std::vector<Pair>& pairs, std::size_t count) {
+                                       const std::vector<Pair>& pairs, std::size_t count,
+                                       bool closed) {
   const Problem problem = priced(alone, pairs);
   std::vector<Choice> all{Choice{}};
-  for (const auto& group : groups_of(problem)) {
+  for (const auto& group : groups_of(problem, !closed)) {
     if (group.size() == 1) {
       for (Choice& choice : all) choice.excess += problem.alone[group.front()];
       continue;
     }
-    all = combined(all, GroupSearch(problem, group, count).run(), count);
+    all = combined(all, GroupSearch(problem, pairs, group, count, closed).run(), count);
   }
   std::vector<Pairing> result;
   for (const Choice& choice : all) {

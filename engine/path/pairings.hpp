@@ -24,8 +24,10 @@ struct Pairing {
 /// groups that no pair joins, each of which is solved on its own: best first with a bound from the
 /// dual of the linear programme, exact unless the group is so tangled that the work would not be
 /// bounded; a beam search answers there. Deterministic.
+/// Items 2 * i and 2 * i + 1 are two ends of one thing: pairs make chains of things. Without
+/// `closed` no chain of several things may come back to its beginning.
 [[nodiscard]] std::vector<Pairing> cheapest_pairings(const std::vector<float>& alone,
                                                      const std::vector<Pair>& pairs,
-                                                     std::size_t count);
+                                                     std::size_t count, bool closed = true);
 
 }  // namespace flowdlo::path

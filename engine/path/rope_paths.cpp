@@ -11,31 +11,13 @@
 
 #include "flowdlo/config.hpp"
 #include "path/assemble.hpp"
-#include "path/rope_sets.hpp"
+#include "path/search.hpp"
 
 namespace flowdlo::path {
 namespace {
 
 constexpr std::size_t kSets = 24;
 constexpr float kLeastShare = 0.02F;  // of a set that is worth telling of, beside the first
-
-// The strands that tell ways apart, the same for a way and its reverse.
-std::vector<int> key_of(const Traversal& way, const Strands& strands) {
-  std::vector<int> forwards;
-  std::vector<int> backwards;
-  for (const int end : way.enters) {
-    const bool minor = strands.list[end / 2].covers_px < kMinorWidths * strands.scale_px;
-    if (!minor) forwards.push_back(end);
-  }
-  for (auto it = forwards.rbegin(); it != forwards.rend(); ++it) backwards.push_back(*it ^ 1);
-  if (way.closed && !forwards.empty()) {  // a ring begins anywhere
-    std::rotate(forwards.begin(), std::min_element(forwards.begin(), forwards.end()),
-                forwards.end());
-    std::rotate(backwards.begin(), std::min_element(backwards.begin(), backwards.end()),
-                backwards.end());
-  }
-  return std::min(forwards, backwards);
-}
 
 // By how much the cheapest set that has no such way costs more than the first.
 float lead_of(const Traversal& way, const std::vector<RopeSet>& sets, const Strands& strands) {

@@ -2,226 +2,245 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <map>
-#include <queue>
-#include <unordered_map>
+#include <optional>
 #include <utility>
+
+#include "path/pairings.hpp"
 
 namespace flowdlo::path {
 namespace {
 
-constexpr float kEndReach = 2;  // widths within which a place means an end
-constexpr std::uint64_t kMix = 0x9E3779B97F4A7C15ULL;
-constexpr std::size_t kMostStates = 24000;
-constexpr std::size_t kBeamWidth = 24;
-constexpr std::size_t kMostBeamSteps = 30000;
+constexpr std::size_t kPairings = 48;  // of one price
+constexpr float kTightWidths = 8;      // a ring is this long: bends of three radii, seen aslant
+constexpr float kTightCost = 10;       // of a shorter one
+constexpr int kPriceSteps = 10;        // each twice as far, until a price is too high or too low,
+constexpr int kPriceHalvings = 6;      // and then between two that are
+constexpr float kEndReach = 2;         // widths within which a place means an end
 
-struct State {
-  int parent = -1;
-  int enter = -1;      // the end by which the last strand was entered
-  float paid = 0;      // bonds and the start
-  float left = 0;      // cost of all that is not yet covered
-  float at_least = 0;  // bound on what the rest will cost
-};
-
-class Searcher {
+// The ends of all strands as things to be paired: by a bond, or, where a strand is left out, its
+// two with each other.
+class Ends {
  public:
-  Searcher(const Strands& strands, const std::vector<std::vector<Bond>>& bonds, int count,
-           const std::vector<Eigen::Vector2f>& ends)
-      : strands_(strands),
-        bonds_(bonds),
-        count_(static_cast<std::size_t>(count)),
-        words_((strands.list.size() + 63) / 64) {
-    const std::size_t n = strands.list.size();
-    uncovered_.resize(n);
-    bound_.resize(n);
-    for (std::size_t s = 0; s < n; ++s) {
-      uncovered_[s] = left_out_energy(strands.list[s], strands);
-      bound_[s] = uncovered_[s];
-      for (int side = 0; side < 2; ++side) {
-        const auto& list = bonds[2 * s + side];
-        if (!list.empty()) bound_[s] = std::min(bound_[s], list.front().cost);
+  // `stops` [2 * strands]: what it costs a way to end at each. Without `closed` only strands that
+  // are rings themselves close.
+  Ends(const Strands& strands, const std::vector<std::vector<Bond>>& bonds,
+       std::vector<float> stops, bool closed)
+      : strands_(strands), stops_(std::move(stops)), closed_(closed) {
+    for (int from = 0; from < static_cast<int>(bonds.size()); ++from) {
+      for (const Bond& bond : bonds[from]) {
+        const auto key = std::minmax(from, bond.to);
+        if (key.first == key.second) continue;
+        if (key.first / 2 == key.second / 2 && (!closed || tight({{key.first}, 0, true}))) continue;
+        const float cost = std::max(0.0F, bond.cost);
+        const auto [place, added] = bonds_.try_emplace(key, cost);
+        if (!added) place->second = std::min(place->second, cost);
       }
-      total_ += uncovered_[s];
-      total_bound_ += bound_[s];
     }
-    for (int end = 0; end < static_cast<int>(2 * n); ++end) stop_.push_back(stop_cost(end, ends));
+    for (const auto& [ends, cost] : bonds_) pairs_.push_back({ends.first, ends.second, cost});
+    for (int s = 0; s < static_cast<int>(strands.list.size()); ++s) {
+      if (strands.list[s].ring) pairs_.push_back({2 * s, 2 * s + 1, 0});
+    }
+    first_left_out_ = static_cast<int>(pairs_.size());
+    for (int s = 0; s < static_cast<int>(strands.list.size()); ++s) {
+      pairs_.push_back({2 * s, 2 * s + 1, left_out_energy(strands.list[s], strands)});
+      all_left_out_ += pairs_.back().cost;
+    }
   }
 
-  std::vector<Traversal> run() {
-    beam();
-    clear();
-    best_first();
-    std::vector<Traversal> result;
-    for (auto& [key, traversal] : found_) result.push_back(std::move(traversal));
-    std::stable_sort(result.begin(), result.end(),
-                     [](const Traversal& a, const Traversal& b) { return a.cost < b.cost; });
-    if (result.size() > count_) result.resize(count_);
+  // The sets that the cheapest pairings are when one more rope costs `price`; `cost` without it.
+  [[nodiscard]] std::vector<RopeSet> sets(float price, std::size_t count) const {
+    std::vector<float> alone;
+    for (const float stop : stops_) alone.push_back(std::max(0.0F, stop + 0.5F * price));
+    std::vector<RopeSet> result;
+    for (const Pairing& pairing : cheapest_pairings(alone, pairs_, count, closed_)) {
+      RopeSet set{ways(pairing), pairing.cost};
+      const auto open = std::count_if(set.ways.begin(), set.ways.end(),
+                                      [](const Traversal& way) { return !way.closed; });
+      set.cost -= price * static_cast<float>(open);
+      for (const Traversal& way : set.ways) set.cost += tight(way) ? kTightCost : 0;
+      if (!set.ways.empty()) result.push_back(std::move(set));
+    }
     return result;
   }
 
- private:
-  using Word = std::uint64_t;
-
-  void clear() {
-    states_.clear();
-    used_.clear();
-    visits_.clear();
-  }
-
-  [[nodiscard]] float stop_cost(int end, const std::vector<Eigen::Vector2f>& known) const {
-    const float cost = strands_.end(end).end_cost;
-    if (known.empty()) return cost;
-    float near = 0;
-    for (const Eigen::Vector2f& place : known) {
-      const float off = (strands_.end(end).point_px - place).norm() / strands_.scale_px;
-      near = std::max(near, std::exp(-0.5F * off * off / (kEndReach * kEndReach)));
-    }
-    return (1 - near) * (cost + kElsewhere);
-  }
-  [[nodiscard]] float goal_cost(const State& state) const {
-    return state.paid + stop_[state.enter ^ 1] + state.left;
-  }
-
-  int push_start(int enter) {
-    const std::size_t s = static_cast<std::size_t>(enter) / 2;
-    states_.push_back({-1, enter, stop_[enter], total_ - uncovered_[s], total_bound_ - bound_[s]});
-    used_.resize(used_.size() + words_, 0);
-    used_[used_.size() - words_ + s / 64] |= Word{1} << (s % 64);
-    return static_cast<int>(states_.size()) - 1;
-  }
-
-  // Returns -1 when the bond's strand is used already.
-  int push_child(int parent, const Bond& bond) {
-    const std::size_t s = static_cast<std::size_t>(bond.to) / 2;
-    const std::size_t from = static_cast<std::size_t>(parent) * words_;
-    if ((used_[from + s / 64] >> (s % 64) & 1) != 0) return -1;
-    const State& before = states_[parent];
-    states_.push_back({parent, bond.to, before.paid + bond.cost, before.left - uncovered_[s],
-                       std::max(0.0F, before.at_least - bound_[s])});
-    for (std::size_t w = 0; w < words_; ++w) used_.push_back(used_[from + w]);
-    used_[used_.size() - words_ + s / 64] |= Word{1} << (s % 64);
-    return static_cast<int>(states_.size()) - 1;
-  }
-
-  // False once a state with the same end and the same strands has been seen `count` times.
-  bool visit(int id) {
-    std::uint64_t hash = (static_cast<std::uint64_t>(states_[id].enter) + 1) * kMix;
-    for (std::size_t w = 0; w < words_; ++w) {
-      hash = (hash ^ used_[static_cast<std::size_t>(id) * words_ + w]) * kMix;
-      hash ^= hash >> 29;
-    }
-    return ++visits_[hash] <= count_;
-  }
-
-  void finish(int id) {
-    const float cost = goal_cost(states_[id]);
-    if (found_.size() >= 8 * count_ && cost > worst_) return;
-    Traversal traversal;
-    traversal.cost = cost;
-    for (int at = id; at >= 0; at = states_[at].parent)
-      traversal.enters.push_back(states_[at].enter);
-    std::reverse(traversal.enters.begin(), traversal.enters.end());
-    std::vector<int> backwards;
-    for (auto it = traversal.enters.rbegin(); it != traversal.enters.rend(); ++it) {
-      backwards.push_back(*it ^ 1);
-    }
-    if (backwards < traversal.enters) traversal.enters = backwards;
-    auto key = major(traversal.enters);
-    const auto [place, added] = found_.try_emplace(std::move(key), traversal);
-    if (!added && cost < place->second.cost) place->second = std::move(traversal);
-    worst_ = std::max(worst_, cost);
-  }
-
-  // The strands that tell traversals apart, in an order that does not depend on the direction.
-  [[nodiscard]] std::vector<int> major(const std::vector<int>& enters) const {
-    std::vector<int> key;
-    std::vector<int> reverse;
-    for (const int end : enters) {
-      if (strands_.list[end / 2].covers_px >= kMinorWidths * strands_.scale_px) key.push_back(end);
-    }
-    if (key.empty()) return enters;
-    for (auto it = key.rbegin(); it != key.rend(); ++it) reverse.push_back(*it ^ 1);
-    return std::min(key, reverse);
-  }
-
-  // Level by level, one more strand each; ranks halfway between what is paid and what is left.
-  void beam() {
-    std::vector<int> level;
-    for (int end = 0; end < static_cast<int>(bonds_.size()); ++end) {
-      level.push_back(push_start(end));
-    }
-    while (!level.empty() && states_.size() < kMostBeamSteps) {
-      const auto rank = [&](int id) {
-        const State& state = states_[id];
-        return state.paid + 0.5F * (state.left + state.at_least);
-      };
-      std::stable_sort(level.begin(), level.end(), [&](int a, int b) { return rank(a) < rank(b); });
-      std::vector<int> next;
-      std::size_t kept = 0;
-      for (const int id : level) {
-        if (kept == kBeamWidth) break;
-        if (!visit(id)) continue;
-        ++kept;
-        finish(id);
-        for (const Bond& bond : bonds_[states_[id].enter ^ 1]) {
-          const int child = push_child(id, bond);
-          if (child >= 0) next.push_back(child);
-        }
+  // The sets at prices around which so many ropes are the cheapest number; of other numbers, too.
+  [[nodiscard]] std::vector<RopeSet> sets_around(std::size_t ropes) const {
+    float price = 0;
+    std::optional<float> low;   // the highest price known to leave too many,
+    std::optional<float> high;  // and the lowest that leaves too few
+    float change = 1;
+    for (int step = 0, halvings = 0; step <= kPriceSteps && halvings <= kPriceHalvings;) {
+      const auto cheapest = sets(price, 1);
+      const std::size_t found = cheapest.empty() ? 0 : cheapest.front().ways.size();
+      if (found == ropes) return sets(price, kPairings);
+      (found > ropes ? low : high) = price;
+      if (low && high) {
+        price = 0.5F * (*low + *high);
+        ++halvings;
+      } else {
+        price = found > ropes ? change : -change;
+        change *= 2;
+        ++step;
       }
-      level = std::move(next);
+    }
+    std::vector<RopeSet> result;
+    for (const auto& end : {low, high}) {
+      if (!end) continue;
+      for (RopeSet& set : sets(*end, kPairings)) result.push_back(std::move(set));
+    }
+    return result;
+  }
+
+  // The way as one rope's with two ends, all other strands left out.
+  [[nodiscard]] Traversal alone(Traversal way) const {
+    way.cost = all_left_out_;
+    for (const int enter : way.enters) way.cost -= pairs_[first_left_out_ + enter / 2].cost;
+    if (way.closed) return way;
+    for (std::size_t i = 1; i < way.enters.size(); ++i) {
+      way.cost += bond_cost(way.enters[i - 1] ^ 1, way.enters[i]);
+    }
+    way.cost += stops_[way.enters.front()] + stops_[way.enters.back() ^ 1];
+    return way;
+  }
+
+ private:
+  // Whether a rope would have to bend more tightly than ropes do to close like that.
+  [[nodiscard]] bool tight(const Traversal& way) const {
+    if (!way.closed) return false;
+    float length_px = 0;
+    for (std::size_t i = 0; i < way.enters.size(); ++i) {
+      const int enter = way.enters[i];
+      const int next = way.enters[(i + 1) % way.enters.size()];
+      length_px += strands_.list[enter / 2].covers_px;
+      length_px += (strands_.end(next).point_px - strands_.end(enter ^ 1).point_px).norm();
+    }
+    const Strand& first = strands_.list[way.enters.front() / 2];
+    return length_px < kTightWidths * width_px_of(first, strands_);
+  }
+
+  [[nodiscard]] float bond_cost(int from, int to) const { return bonds_.at(std::minmax(from, to)); }
+
+  [[nodiscard]] bool left_out(const Pairing& pairing, int strand) const {
+    return pairing.pair_of[2 * strand] >= first_left_out_;
+  }
+
+  // The way that enters its first strand by `enter`, as far as it goes.
+  [[nodiscard]] Traversal way_from(int enter, const Pairing& pairing,
+                                   std::vector<std::uint8_t>& used) const {
+    Traversal way;
+    for (int at = enter;;) {
+      way.enters.push_back(at);
+      used[at / 2] = 1;
+      const int pair = pairing.pair_of[at ^ 1];
+      if (pair < 0) return way;
+      at = pairs_[pair].a == (at ^ 1) ? pairs_[pair].b : pairs_[pair].a;
+      if (at != enter) continue;
+      way.closed = true;
+      return way;
     }
   }
 
-  void best_first() {
-    using Entry = std::pair<float, int>;
-    std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open;
-    const float limit = found_.empty() ? 0 : bar();
-    const auto offer = [&](int id) {
-      if (id < 0) return;
-      const float bound = states_[id].paid + states_[id].at_least;
-      if (bound <= limit) open.emplace(bound, id);
-    };
-    for (int end = 0; end < static_cast<int>(bonds_.size()); ++end) offer(push_start(end));
-    while (!open.empty() && states_.size() < kMostStates) {
-      const int id = open.top().second;
-      open.pop();
-      if (!visit(id)) continue;
-      finish(id);
-      for (const Bond& bond : bonds_[states_[id].enter ^ 1]) offer(push_child(id, bond));
+  [[nodiscard]] std::vector<Traversal> ways(const Pairing& pairing) const {
+    std::vector<Traversal> result;
+    const int count = static_cast<int>(strands_.list.size());
+    std::vector<std::uint8_t> used(strands_.list.size(), 0);
+    for (int s = 0; s < count; ++s) used[s] = left_out(pairing, s) ? 1 : 0;
+    for (int end = 0; end < 2 * count; ++end) {
+      if (used[end / 2] == 0 && pairing.pair_of[end] < 0) {
+        result.push_back(way_from(end, pairing, used));
+      }
     }
-  }
-
-  // No state that costs more than the last of the best found so far needs to be looked at.
-  [[nodiscard]] float bar() const {
-    std::vector<float> costs;
-    for (const auto& [key, traversal] : found_) costs.push_back(traversal.cost);
-    std::sort(costs.begin(), costs.end());
-    return costs[std::min(costs.size(), count_) - 1] + 1e-3F;
+    for (int s = 0; s < count; ++s) {
+      if (used[s] == 0) result.push_back(way_from(2 * s, pairing, used));
+    }
+    return result;
   }
 
   const Strands& strands_;
-  const std::vector<std::vector<Bond>>& bonds_;
-  std::size_t count_;
-  std::size_t words_;
-  std::vector<float> uncovered_;  // [strands] cost of leaving it out
-  std::vector<float> stop_;       // [strands, 2] cost of the rope's ending there
-  std::vector<float> bound_;      // [strands] least cost of entering it, or of leaving it out
-  float total_ = 0;
-  float total_bound_ = 0;
-  float worst_ = 0;
-  std::vector<State> states_;
-  std::vector<Word> used_;  // [states, words_]
-  std::unordered_map<std::uint64_t, std::size_t> visits_;
-  std::map<std::vector<int>, Traversal> found_;
+  std::vector<float> stops_;
+  bool closed_;
+  std::map<std::pair<int, int>, float> bonds_;  // the cheapest of two ends
+  std::vector<Pair> pairs_;
+  int first_left_out_ = 0;  // of the pairs: from here on one for each strand that is left out
+  float all_left_out_ = 0;  // what it costs to use no strand
 };
+
+// [2 * strands] what it costs to end at each.
+std::vector<float> stops_of(const Strands& strands, const std::vector<Eigen::Vector2f>& known) {
+  std::vector<float> stops;
+  for (int end = 0; end < 2 * static_cast<int>(strands.list.size()); ++end) {
+    const float cost = strands.end(end).end_cost;
+    float near = 0;
+    for (const Eigen::Vector2f& place : known) {
+      const float off = (strands.end(end).point_px - place).norm() / strands.scale_px;
+      near = std::max(near, std::exp(-0.5F * off * off / (kEndReach * kEndReach)));
+    }
+    stops.push_back(known.empty() ? cost : (1 - near) * (cost + kElsewhere));
+  }
+  return stops;
+}
+
+template <class Priced>
+void sort_and_cut(std::vector<Priced>& list, std::size_t count) {
+  std::stable_sort(list.begin(), list.end(),
+                   [](const Priced& a, const Priced& b) { return a.cost < b.cost; });
+  if (list.size() > count) list.resize(count);
+}
 
 }  // namespace
 
+std::vector<int> key_of(const Traversal& way, const Strands& strands) {
+  std::vector<int> forwards;
+  std::vector<int> backwards;
+  for (const int end : way.enters) {
+    const bool minor = strands.list[end / 2].covers_px < kMinorWidths * strands.scale_px;
+    if (!minor) forwards.push_back(end);
+  }
+  for (auto it = forwards.rbegin(); it != forwards.rend(); ++it) backwards.push_back(*it ^ 1);
+  if (way.closed && !forwards.empty()) {
+    std::rotate(forwards.begin(), std::min_element(forwards.begin(), forwards.end()),
+                forwards.end());
+    std::rotate(backwards.begin(), std::min_element(backwards.begin(), backwards.end()),
+                backwards.end());
+  }
+  return std::min(forwards, backwards);
+}
+
+std::vector<RopeSet> search_sets(const Strands& strands,
+                                 const std::vector<std::vector<Bond>>& bonds, int ropes,
+                                 std::size_t count) {
+  const Ends ends(strands, bonds, stops_of(strands, {}), true);
+  const auto wanted = static_cast<std::size_t>(ropes);
+  std::vector<RopeSet> found;
+  for (RopeSet& set : ropes > 0 ? ends.sets_around(wanted) : ends.sets(0, kPairings)) {
+    if (ropes > 0 && set.ways.size() != wanted) continue;
+    for (const Traversal& way : set.ways) set.cost += way.closed ? kRingEnergy : 0;
+    found.push_back(std::move(set));
+  }
+  sort_and_cut(found, count);
+  return found;
+}
+
 std::vector<Traversal> search(const Strands& strands, const std::vector<std::vector<Bond>>& bonds,
                               int count, const std::vector<Eigen::Vector2f>& ends) {
-  return Searcher(strands, bonds, count, ends).run();
+  const Ends paired(strands, bonds, stops_of(strands, ends), false);
+  std::map<std::vector<int>, Traversal> found;  // the cheapest of each kind
+  for (const RopeSet& set : paired.sets_around(1)) {
+    for (const Traversal& way : set.ways) {
+      Traversal one = paired.alone(way);
+      auto key = key_of(one, strands);
+      if (key.empty()) key = one.enters;
+      const auto [place, added] = found.try_emplace(std::move(key), one);
+      if (!added && one.cost < place->second.cost) place->second = std::move(one);
+    }
+  }
+  std::vector<Traversal> result;
+  for (auto& [key, way] : found) result.push_back(std::move(way));
+  sort_and_cut(result, static_cast<std::size_t>(count));
+  return result;
 }
 
 }  // namespace flowdlo::path

@@ -1,8 +1,9 @@
-// Search: the cheapest ways through all strands, end to end. A traversal pays for its bonds, for
-// ends that are no tips, and for the length it leaves uncovered.
+// Search: the cheapest sets of ways that together explain all strands, and the cheapest way of one
+// rope. No strand is in two ways.
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
 #include <vector>
 
 #include "path/links.hpp"
@@ -10,20 +11,39 @@
 
 namespace flowdlo::path {
 
+/// A way through strands, end to end.
 struct Traversal {
   std::vector<int> enters;  ///< the end by which each strand is entered, in order
-  float cost = 0;
-  bool closed = false;  ///< from the last strand on to the first one: a ring
+  float cost = 0;           ///< with all other strands left out; 0 of a way in a set
+  bool closed = false;      ///< from the last strand on to the first one: a ring
 };
 
-/// At most `count` distinct traversals, cheapest first; a traversal and its reverse are one. Where
-/// `ends` of the rope are known, in the strands' pixels, an end there costs nothing, and one
+struct RopeSet {
+  std::vector<Traversal> ways;
+  float cost = 0;
+};
+
+/// At most `count` sets of `ropes` ways, or with 0 of any number, cheapest first; empty where there
+/// are none. A set pays for its bonds, for where its ways end, for what it leaves out, and for each
+/// closed way kRingEnergy. Every end of a strand has one bond at
+/// most and every strand is either used or left out, so that a set is a pairing of ends
+/// (`cheapest_pairings`): exact for any number of ropes as long as that is. A number that is asked
+/// for comes from the price of one more rope at which it is the cheapest one. Deterministic.
+[[nodiscard]] std::vector<RopeSet> search_sets(const Strands& strands,
+                                               const std::vector<std::vector<Bond>>& bonds,
+                                               int ropes, std::size_t count);
+
+/// At most `count` ways of one rope that has two ends, cheapest first; a way and its reverse are
+/// one. None where there are no strands. They are found as sets of one way that no bond closes.
+/// Where `ends` of the rope are known, in the strands' pixels, an end there costs nothing, and one
 /// elsewhere as much as it would without them and kElsewhere more.
-/// Exact (best first with a bound that never overestimates) unless the mask has so many crossings
-/// that the work would not be bounded; a beam search answers then. Deterministic.
 [[nodiscard]] std::vector<Traversal> search(const Strands& strands,
                                             const std::vector<std::vector<Bond>>& bonds, int count,
                                             const std::vector<Eigen::Vector2f>& ends = {});
+
+/// The strands by which ways are told apart, in an order that is the same for a way and its
+/// reverse, and for a ring wherever it begins. Strands below kMinorWidths tell nothing.
+[[nodiscard]] std::vector<int> key_of(const Traversal& way, const Strands& strands);
 
 inline constexpr float kElsewhere = 6;  ///< what an end costs that lies far from all known ones
 

@@ -27,14 +27,30 @@ Problem random_problem(std::mt19937& random, int items, unsigned one_in) {
   return problem;
 }
 
+// Whether items 2 * i and 2 * i + 1, which are one thing's, make with the pairs a chain of several
+// things that comes back to its beginning; `partner` [items], -1: alone.
+bool comes_back(const std::vector<int>& partner) {
+  for (int item = 0; item < static_cast<int>(partner.size()); ++item) {
+    int at = item;
+    for (std::size_t step = 0; step < partner.size(); ++step) {
+      const int other = partner[static_cast<std::size_t>(at)];
+      if (other < 0 || other == (at ^ 1)) break;
+      at = other ^ 1;
+      if (at == item) return true;
+    }
+  }
+  return false;
+}
+
 // Every pairing, by brute force: ascending costs of those that make no pair dearer than both alone.
-std::vector<float> all_costs(const Problem& problem) {
+std::vector<float> all_costs(const Problem& problem, bool closed = true) {
   std::vector<float> costs;
   std::vector<bool> used(problem.alone.size(), false);
+  std::vector<int> partner(problem.alone.size(), -1);
   const auto visit = [&](const auto& self, std::size_t next, float paid) -> void {
     while (next < used.size() && used[next]) ++next;
     if (next == used.size()) {
-      costs.push_back(paid);
+      if (closed || !comes_back(partner)) costs.push_back(paid);
       return;
     }
     used[next] = true;
@@ -46,7 +62,10 @@ std::vector<float> all_costs(const Problem& problem) {
       const std::size_t other = a == next ? b : a;
       if (used[other] || pair.cost >= problem.alone[a] + problem.alone[b]) continue;
       used[other] = true;
+      partner[next] = static_cast<int>(other);
+      partner[other] = static_cast<int>(next);
       self(self, next, paid + pair.cost);
+      partner[next] = partner[other] = -1;
       used[other] = false;
     }
     used[next] = false;
@@ -81,6 +100,23 @@ TEST(Pairings, AreTheCheapestOfAllInOrder) {
       EXPECT_NEAR(cost_of(problem, found[i]), found[i].cost, 1e-3F);
     }
   }
+}
+
+TEST(Pairings, WithoutClosedChainsAreTheCheapestOfTheOthersInOrder) {
+  std::mt19937 random(11);
+  std::size_t closed_ones = 0;
+  for (int round = 0; round < 60; ++round) {
+    const Problem problem = random_problem(random, 4 + 2 * (round % 3), 1 + round % 2);
+    const auto expected = all_costs(problem, false);
+    closed_ones += all_costs(problem).size() - expected.size();
+    const auto found = cheapest_pairings(problem.alone, problem.pairs, 12, false);
+    ASSERT_EQ(found.size(), std::min<std::size_t>(12, expected.size()));
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      EXPECT_NEAR(found[i].cost, expected[i], 1e-3F) << "round " << round << ", place " << i;
+      EXPECT_NEAR(cost_of(problem, found[i]), found[i].cost, 1e-3F);
+    }
+  }
+  EXPECT_GT(closed_ones, 100U);
 }
 
 TEST(Pairings, AreDifferentFromEachOther) {

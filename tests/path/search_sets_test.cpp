@@ -1,4 +1,4 @@
-#include "path/rope_sets.hpp"
+#include "path/search.hpp"
 
 #include <gtest/gtest.h>
 
