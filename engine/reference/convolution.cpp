@@ -25,18 +25,21 @@ constexpr std::array<std::array<double, kTaps>, kPoints> kTurn{{{1.0 / 4, 0, 0},
 // [kTurned, out, in] of weight [out, 9, in].
 std::vector<float> turned(std::span<const float> weight, std::size_t out, std::size_t in) {
   std::vector<float> result(kTurned * out * in);
-  for (std::size_t row = 0; row < out; ++row) {
-    for (std::size_t column = 0; column < in; ++column) {
-      for (std::size_t i = 0; i < kTurned; ++i) {
-        const auto& down = kTurn[i / kPoints];
-        const auto& across = kTurn[i % kPoints];
-        double sum = 0;
-        for (std::size_t tap = 0; tap < kTaps * kTaps; ++tap) {
-          sum += down[tap / kTaps] * across[tap % kTaps] *
-                 static_cast<double>(weight[(row * kTaps * kTaps + tap) * in + column]);
+  std::vector<double> sums(in);
+  for (std::size_t i = 0; i < kTurned; ++i) {
+    const auto& down = kTurn[i / kPoints];
+    const auto& across = kTurn[i % kPoints];
+    for (std::size_t row = 0; row < out; ++row) {
+      std::fill(sums.begin(), sums.end(), 0.0);
+      for (std::size_t tap = 0; tap < kTaps * kTaps; ++tap) {
+        const double factor = down[tap / kTaps] * across[tap % kTaps];
+        const float* const taps = weight.data() + (row * kTaps * kTaps + tap) * in;
+        for (std::size_t column = 0; column < in; ++column) {
+          sums[column] += factor * static_cast<double>(taps[column]);
         }
-        result[(i * out + row) * in + column] = static_cast<float>(sum);
       }
+      std::transform(sums.begin(), sums.end(), result.data() + (i * out + row) * in,
+                     [](double sum) { return static_cast<float>(sum); });
     }
   }
   return result;
