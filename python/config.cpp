@@ -29,6 +29,9 @@ constexpr Names<FieldChoice, 3> kFields{{{"auto", FieldChoice::kBeside},
                                          {"off", FieldChoice::kOff},
                                          {"strands", FieldChoice::kStrands}}};
 
+constexpr Names<FieldDevice, 3> kFieldDevices{
+    {{"auto", FieldDevice::kFaster}, {"cpu", FieldDevice::kCpu}, {"device", FieldDevice::kSame}}};
+
 std::string shown(const py::handle& value) { return py::repr(value).cast<std::string>(); }
 
 [[noreturn]] void wrong(const char* name, const std::string& expected, const py::handle& got) {
@@ -84,6 +87,7 @@ void each_field(Config& config, const Visit& visit) {
   visit("gate", config.gate, kGates);
   visit("field", config.field, kFields);
   visit("field_weights", config.field_weights);
+  visit("field_device", config.field_device, kFieldDevices);
   visit("rope_length_m", config.rope_length_m);
   visit("ropes", config.ropes);
   visit("budget_ms", config.budget_ms);

@@ -134,6 +134,11 @@ class Handle {
     return text(value_of(locked(
         [](const Estimator& estimator) -> Result<std::string> { return estimator.device(); })));
   }
+  [[nodiscard]] py::str field_device() {
+    return text(value_of(locked([](const Estimator& estimator) -> Result<std::string> {
+      return estimator.field_device();
+    })));
+  }
   [[nodiscard]] int euler_steps() {
     return value_of(
         locked([](const Estimator& estimator) -> Result<int> { return estimator.euler_steps(); }));
@@ -206,6 +211,7 @@ PYBIND11_MODULE(_core, module) {
            py::arg("instances").noconvert())
       .def("close", &Handle::close)
       .def_property_readonly("device", &Handle::device)
+      .def_property_readonly("field_device", &Handle::field_device)
       .def_property_readonly("euler_steps", &Handle::euler_steps)
       .def_property_readonly("draws", &Handle::draws);
 

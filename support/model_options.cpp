@@ -38,6 +38,15 @@ void add_prior_options(CLI::App& command, Config& config) {
                                        {"off", FieldChoice::kOff}}))
       ->type_name("CHOICE");
   command
+      .add_option(
+          "--field-on", config.field_device,
+          "Where the strand field runs: auto (on a real GPU or on the CPU, whichever a trial "
+          "finds faster), cpu, or device (that of --device, untried)")
+      ->transform(choice<FieldDevice>({{"auto", FieldDevice::kFaster},
+                                       {"cpu", FieldDevice::kCpu},
+                                       {"device", FieldDevice::kSame}}))
+      ->type_name("PLACE");
+  command
       .add_option("--field-weights", config.field_weights,
                   "Of the strand field, .safetensors [those beside the model's]")
       ->type_name("FILE");

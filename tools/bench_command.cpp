@@ -98,6 +98,7 @@ Result<BenchReport> measure(const BenchOptions& options, Frames& frames) {
   if (!estimator) return estimator.error();
   BenchReport report;
   report.device = estimator->device();
+  report.field_device = estimator->field_device();
   report.threads = threads::count(options.config.threads);
   report.draws = estimator->draws();
   report.steps = estimator->euler_steps();

@@ -89,6 +89,7 @@ std::string bench_json(const BenchReport& report) {
                {"width", report.width},
                {"height", report.height},
                {"device", report.device},
+               {"field_device", report.field_device},
                {"threads", report.threads},
                {"draws", report.draws},
                {"steps", report.steps},
@@ -110,10 +111,13 @@ std::string bench_json(const BenchReport& report) {
 }
 
 std::string bench_table(const BenchReport& report) {
+  const bool elsewhere = !report.field_device.empty() && report.field_device != report.device;
+  const bool on_cpu = report.device == "cpu" || report.field_device == "cpu";
   std::string text = fmt::format(
-      "{}, {} x {} px, {} draws, {} steps, on {}{}\n", report.frame, report.width, report.height,
+      "{}, {} x {} px, {} draws, {} steps, on {}{}{}\n", report.frame, report.width, report.height,
       report.draws, report.steps, report.device,
-      report.device == "cpu" ? fmt::format(", {} threads", report.threads) : std::string());
+      elsewhere ? fmt::format(", strand field on {}", report.field_device) : std::string(),
+      on_cpu ? fmt::format(", {} threads", report.threads) : std::string());
   text +=
       fmt::format("create {:.1f} ms, first frame {:.1f} ms, memory {:.0f} MB (peak {:.0f} MB)\n\n",
                   report.create_ms, report.first_ms, report.rss_mb, report.rss_peak_mb);

@@ -25,6 +25,7 @@ struct BenchReport {
   int width = 0;      ///< of the first frame
   int height = 0;
   std::string device;
+  std::string field_device;
   int threads = 0;  ///< of the CPU back end
   int draws = 0;
   int steps = 0;

@@ -70,7 +70,8 @@ Provenance provenance_of(const EstimateOptions& options, const support::FrameEnt
           options.config.weights.string(),
           estimator.euler_steps(),
           estimator.draws(),
-          options.config.seed};
+          options.config.seed,
+          estimator.field_device()};
 }
 
 std::string summary(const Estimate& estimate, const support::FrameEntry& entry,

@@ -32,6 +32,8 @@ Json header(const char* status, const std::string& message, const Provenance& pr
           {"frame", provenance.frame},
           {"version", FLOWDLO_VERSION},
           {"device", provenance.device},
+          {"field_device",
+           provenance.field_device.empty() ? Json(nullptr) : Json(provenance.field_device)},
           {"weights", provenance.weights.empty() ? Json(nullptr) : Json(provenance.weights)},
           {"steps", provenance.steps},
           {"seed", provenance.seed}};

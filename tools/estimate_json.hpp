@@ -17,6 +17,7 @@ struct Provenance {
   int steps = 0;
   int draws = 0;
   std::uint64_t seed = 0;
+  std::string field_device{};  ///< as `device`, of the strand field; empty: there is none
 };
 
 /// JSON text with `status` "ok"; numbers that are not finite are null.

@@ -34,6 +34,8 @@ static_assert(FLOWDLO_GATE_THESIS == static_cast<int>(GateChoice::kThesis));
 static_assert(FLOWDLO_GATE_CALIBRATED == static_cast<int>(GateChoice::kCalibrated));
 static_assert(FLOWDLO_FIELD_OFF == static_cast<int>(FieldChoice::kOff));
 static_assert(FLOWDLO_FIELD_STRANDS == static_cast<int>(FieldChoice::kStrands));
+static_assert(FLOWDLO_FIELD_DEVICE_CPU == static_cast<int>(FieldDevice::kCpu));
+static_assert(FLOWDLO_FIELD_DEVICE_SAME == static_cast<int>(FieldDevice::kSame));
 static_assert(FLOWDLO_SOURCE_PREDICTION == static_cast<int>(Source::kPrediction));
 static_assert(FLOWDLO_SOURCE_PRIOR == static_cast<int>(Source::kPrior));
 static_assert(FLOWDLO_ORIGIN_FIRST_PRIOR == static_cast<int>(Origin::kFirstPrior));
@@ -71,7 +73,9 @@ flowdlo_config default_config() {
           .reserved = 0,
           .budget_ms = defaults.budget_ms,
           .probe = defaults.probe ? 1 : 0,
-          .ropes = defaults.ropes};
+          .ropes = defaults.ropes,
+          .field_device = static_cast<std::int32_t>(defaults.field_device),
+          .reserved_2 = 0};
 }
 
 Config config_of(const flowdlo_config& given) {
@@ -95,6 +99,7 @@ Config config_of(const flowdlo_config& given) {
   config.budget_ms = given.budget_ms;
   config.probe = given.probe != 0;
   config.ropes = given.ropes;
+  config.field_device = static_cast<FieldDevice>(given.field_device);
   return config;
 }
 
@@ -106,11 +111,13 @@ Result<void> create(const flowdlo_config* given, flowdlo_estimator** out) {
   if (given != nullptr) {
     if (const auto fits = check_size(given); !fits) return fits.error();
     config = read(given, config);
-    if (config.reserved != 0) {
+    for (const auto& [name, value] :
+         {std::pair{"reserved", config.reserved}, std::pair{"reserved_2", config.reserved_2}}) {
+      if (value == 0) continue;
       return Error{ErrorCode::kBadInput,
-                   fmt::format("flowdlo_config.reserved: expected 0, got {}; fill the struct with "
+                   fmt::format("flowdlo_config.{}: expected 0, got {}; fill the struct with "
                                "flowdlo_config_init before use",
-                               config.reserved)};
+                               name, value)};
     }
   }
   auto estimator = Estimator::create(config_of(config));
@@ -297,4 +304,8 @@ flowdlo_status flowdlo_estimator_alternative(const flowdlo_estimator* estimator,
 
 const char* flowdlo_estimator_device(const flowdlo_estimator* estimator) {
   return estimator == nullptr ? "" : estimator->estimator.device().c_str();
+}
+
+const char* flowdlo_estimator_field_device(const flowdlo_estimator* estimator) {
+  return estimator == nullptr ? "" : estimator->estimator.field_device().c_str();
 }

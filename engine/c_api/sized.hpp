@@ -23,7 +23,8 @@ struct Kind<flowdlo_config> {
   static constexpr const char* kName = "flowdlo_config";
   static constexpr std::size_t kFirstBytes =
       offsetof(flowdlo_config, ropes) + sizeof(flowdlo_config::ropes);
-  static_assert(sizeof(flowdlo_config) == kFirstBytes);
+  static_assert(sizeof(flowdlo_config) ==
+                offsetof(flowdlo_config, reserved_2) + sizeof(flowdlo_config::reserved_2));
 };
 
 template <>

@@ -9,14 +9,17 @@
 #include <string>
 #include <thread>
 
+#include "field/network.hpp"
 #include "flow/sampler.hpp"
 
 namespace flowdlo::estimator {
 
-/// A sampler on a device, and the device's name.
+/// What is made on a device.
 struct OnDevice {
-  std::string device;
+  std::string device;  ///< its name
   flow::Sampler sampler;
+  std::optional<field::Network> field{};
+  std::string field_device{};  ///< where the field's network runs; empty without one
 };
 
 /// How long is waited before the first try; each later wait is twice as long, up to `longest`.

@@ -34,6 +34,7 @@ Result<void> check(const Config& config) {
   expect_known(config.prior, PriorChoice::kRefined, "prior");
   expect_known(config.gate, GateChoice::kCalibrated, "gate");
   expect_known(config.field, FieldChoice::kStrands, "field");
+  expect_known(config.field_device, FieldDevice::kSame, "field_device");
   if (config.device.empty()) {
     fault(
         "Config.device: expected \"auto\", \"cpu\", \"vulkan\", part of a name or a UUID, got "

@@ -52,7 +52,9 @@ BackEnd on_device(const Config& config, const std::shared_ptr<vulkan::Device>& d
   const DeviceReport& report = vulkan::report(*device);
   const vulkan::ProgramOptions options{.timeout_ms = timeout_ms(config, report.kind),
                                        .pipeline_cache = cache_folder(std::getenv)};
-  return {report.name, [device, options] { return vulkan::create_program(device, options); }};
+  return {.name = report.name,
+          .make_program = [device, options] { return vulkan::create_program(device, options); },
+          .gpu = is_real_gpu(report)};
 }
 
 Result<BackEnd> open_vulkan(const Config& config, const std::string& wanted) {
@@ -130,11 +132,11 @@ BackEnd choose_automatically(const Config& config) { return cpu_back_end(config.
 }  // namespace
 
 BackEnd cpu_back_end(int threads) {
-  return {"cpu", [threads] { return reference::create_program(threads); }};
+  return {.name = kCpu, .make_program = [threads] { return reference::create_program(threads); }};
 }
 
 Result<BackEnd> choose_back_end(const Config& config) {
-  if (config.device == "cpu") return cpu_back_end(config.threads);
+  if (config.device == kCpu) return cpu_back_end(config.threads);
   if (config.device == kAuto) return choose_automatically(config);
   return open_vulkan(config, config.device);
 }

@@ -19,10 +19,13 @@ namespace flowdlo::estimator {
 /// A frame in buffers of the host's device as one in memory, good until the next.
 using Fetch = std::function<Result<Frame>(const VulkanFrame&)>;
 
+inline constexpr const char* kCpu = "cpu";  ///< the native back end's name
+
 struct BackEnd {
-  std::string name;  ///< "cpu", or the Vulkan device's name
+  std::string name;  ///< kCpu, or the Vulkan device's name
   flow::ProgramFactory make_program;
-  Fetch fetch{};  ///< of a device that the host handed over; of others empty
+  Fetch fetch{};     ///< of a device that the host handed over; of others empty
+  bool gpu = false;  ///< a real one, no CPU driver
 };
 
 [[nodiscard]] BackEnd cpu_back_end(int threads);

@@ -11,7 +11,7 @@
 #include "estimator/conditions.hpp"
 #include "estimator/config_check.hpp"
 #include "estimator/device_choice.hpp"
-#include "estimator/device_sampler.hpp"
+#include "estimator/device_networks.hpp"
 #include "estimator/hints.hpp"
 #include "estimator/judge.hpp"
 #include "estimator/known_scene.hpp"
@@ -40,8 +40,8 @@ namespace flowdlo {
 struct FLOWDLO_HIDDEN Estimator::Impl {
   Config config;
   weights::Metadata metadata;
-  estimator::DeviceSampler sampler;
-  estimator::FieldNetworks networks;
+  estimator::DeviceNetworks networks;
+  std::optional<refine::Network> refine;
   std::optional<gate::Fitted> fitted;  // where the calibrated gate decides
   threads::Pool pool{config.threads};  // for what runs beside the model
   estimator::ReadingCosts reading_costs{};
@@ -84,22 +84,28 @@ Result<std::unique_ptr<Estimator::Impl>> Estimator::Impl::create(const Config& w
     return host != nullptr ? estimator::host_back_end(wanted, *host)
                            : estimator::choose_back_end(wanted);
   });
-  auto loaded = weights::load_and_keep(location->model);
+  auto model = weights::keep(location->model);
   auto back_end = choice.get();
-  if (!loaded) return loaded.error();
-  const weights::Metadata metadata = loaded->weights->metadata;
-  const Config config = estimator::resolved(wanted, metadata);
+  if (!model) return model.error();
+  const auto kept = std::make_shared<const weights::KeptFile>(*std::move(model));
+  const Config config = estimator::resolved(wanted, kept->metadata());
   if (!back_end) return back_end.error();
   estimator::Fetch fetch = back_end->fetch;
-  auto sampler =
-      estimator::DeviceSampler::create(config, estimator::source_of(*loaded), *std::move(back_end));
-  if (!sampler) return sampler.error();
-  auto networks = estimator::open_field(config, location->field);
-  if (!networks) return networks.error();
-  auto fitted = estimator::open_gate(config, *loaded->weights, networks->calibration);
+  auto field = estimator::open_field(config, location->field);
+  if (!field) return field.error();
+  auto fitted = estimator::open_gate(config, *kept, field->calibration);
   if (!fitted) return fitted.error();
+  const bool draws_idle = estimator::draws_idle(fitted->has_value(), field->field != nullptr);
+  auto networks = estimator::DeviceNetworks::create(
+      {.config = config,
+       .model = estimator::source_of(kept),
+       .model_idle = draws_idle && config.quality != Quality::kFull,
+       .field = field->field},
+      *std::move(back_end));
+  if (!networks) return networks.error();
   auto impl = std::unique_ptr<Impl>(  // an aggregate, which Clang 14 makes by braces only
-      new Impl{config, metadata, *std::move(sampler), *std::move(networks), *std::move(fitted)});
+      new Impl{config, kept->metadata(), *std::move(networks), std::move(field->refine),
+               *std::move(fitted)});
   impl->fetch = std::move(fetch);
   if (config.budget_ms > 0) impl->learn_costs();
   return impl;
@@ -137,7 +143,7 @@ double Estimator::Impl::sampling_ms(const estimator::Rereading& rereading) const
 std::optional<field::Axes> Estimator::Impl::axes(const Frame& frame, float rope_width_px,
                                                  const estimator::Budget& budget, bool near_parts,
                                                  bool& left_out) {
-  if (!networks.field) return std::nullopt;
+  if (networks.field() == nullptr) return std::nullopt;
   const double rope_px = budget.bounded() ? estimator::magnified_px(frame, rope_width_px) : 0;
   const double to_come_ms = reading_costs.of_mask.of(rope_px) + gate_cost.of(1);
   left_out = !budget.leaves(reading_costs.of_field.of(rope_px) + to_come_ms);
@@ -145,7 +151,7 @@ std::optional<field::Axes> Estimator::Impl::axes(const Frame& frame, float rope_
     reading_costs.of_field.left_out();
     return std::nullopt;
   }
-  return estimator::seen_by(&*networks.field, frame, near_parts, &pool)(rope_width_px);
+  return estimator::seen_by(networks.field(), frame, near_parts, &pool)(rope_width_px);
 }
 
 /// [draws] the hypothesis that conditions each.
@@ -172,14 +178,14 @@ Result<estimator::Sampled> Estimator::Impl::sample(const Frame& frame,
   }
   sampled.mask_field = evidence::mask_field(frame);
   stage.lap(timings.mask_field_ms);
-  auto prediction = sampler.sample({.frame = frame,  // Eq. (3.26)-(3.29)
-                                    .cloud = conditions.cloud,
-                                    .field = sampled.mask_field,
-                                    .draw_priors = priors,
-                                    .visible = &conditions.visible});
+  auto prediction = networks.sample({.frame = frame,  // Eq. (3.26)-(3.29)
+                                     .cloud = conditions.cloud,
+                                     .field = sampled.mask_field,
+                                     .draw_priors = priors,
+                                     .visible = &conditions.visible});
   stage.lap(timings.model_ms);
   if (!prediction) return prediction.error();
-  timings.device_ms = sampler.stage_times_ms();
+  timings.device_ms = networks.stage_times_ms();
   model_cost.saw(timings.mask_field_ms + timings.model_ms, 1);
   sampled.prediction = *std::move(prediction);
   sampled.verdict = gate::choose(sampled.prediction.draws, prior_nodes,
@@ -200,9 +206,10 @@ Result<Estimate> Estimator::Impl::estimate(const Frame& frame, const Hints& hint
                                       estimator::end_directions(hints, frame.intrinsics), &pool};
   Timings timings;
   estimator::Stopwatch total;
+  networks.begin_frame();
   bool no_time_for_field = false;
   estimator::SeeAxes see;
-  if (networks.field) {
+  if (networks.field() != nullptr) {
     see = [&](float px) { return axes(frame, px, budget, false, no_time_for_field); };
   }
   auto conditions = estimator::gather(frame, reading, timings, traced, see);  // Sec. 3.2, 3.3
@@ -211,8 +218,7 @@ Result<Estimate> Estimator::Impl::estimate(const Frame& frame, const Hints& hint
   estimator::Stopwatch stage;
   const gate::DilatedMask mask(frame);
   const estimator::Judge judge(fitted ? &*fitted : nullptr, hints, *conditions, frame,
-                               reading.rope_length_m,
-                               networks.refine ? &*networks.refine : nullptr);
+                               reading.rope_length_m, refine ? &*refine : nullptr);
   auto first = judge.of_first(traced != nullptr);
   if (!first) return first.error();
   stage.lap(timings.gate_ms);
@@ -220,11 +226,9 @@ Result<Estimate> Estimator::Impl::estimate(const Frame& frame, const Hints& hint
   const bool doubtful = calibrated() && !*first;  // the thesis' gate knows no doubt
   if (budget.bounded()) learn_first(*conditions, timings, frame);
   stage = {};
-  estimator::Rereading rereading(pool, doubtful, networks.field ? &*networks.field : nullptr,
-                                 *conditions, frame, reading, limits(budget));
-  // Of 2,250 estimates that the calibrated gate made with a strand field none was a draw
-  // (docs/accuracy.md).
-  const bool draws_idle = calibrated() && conditions->axes;
+  estimator::Rereading rereading(pool, doubtful, networks.field(), *conditions, frame, reading,
+                                 limits(budget));
+  const bool draws_idle = estimator::draws_idle(calibrated(), conditions->axes.has_value());
   const bool wanted = tensors != nullptr || config.quality == Quality::kFull || !draws_idle;
   const bool asked = wanted && (tensors != nullptr || budget.leaves(sampling_ms(rereading)));
   estimator::Sampled sampled;
@@ -257,9 +261,9 @@ Result<Estimate> Estimator::Impl::estimate(const Frame& frame, const Hints& hint
   total.lap(timings.total_ms);
   estimate.timings = std::move(timings);
   if (tensors != nullptr) {
-    *tensors = estimator::collect_tensors(sampler.source(), *conditions, sampled);
-    if (networks.field) {
-      const auto seen = field::see(frame, conditions->paths.rope_width_px, *networks.field);
+    *tensors = estimator::collect_tensors(networks.source(), *conditions, sampled);
+    if (networks.field() != nullptr) {
+      const auto seen = field::see(frame, conditions->paths.rope_width_px, *networks.field());
       if (seen) tensors->strands = estimator::seen_strands(*seen);
     }
   }
@@ -348,9 +352,22 @@ Result<Estimate> Estimator::estimate(const Frame& frame, const Hints& hints, Ten
   return run(frame, hints, &tensors);
 }
 
-const std::string& Estimator::device() const {
+namespace {
+
+/// Of what was moved from.
+const std::string& no_device() {
   static const std::string none;
-  return impl_ ? impl_->sampler.device() : none;
+  return none;
+}
+
+}  // namespace
+
+const std::string& Estimator::device() const {
+  return impl_ ? impl_->networks.device() : no_device();
+}
+
+const std::string& Estimator::field_device() const {
+  return impl_ ? impl_->networks.field_device() : no_device();
 }
 
 int Estimator::euler_steps() const { return impl_ ? impl_->config.euler_steps : 0; }

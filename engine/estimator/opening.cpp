@@ -10,7 +10,6 @@
 #include <utility>
 
 #include "estimator/device_choice.hpp"
-#include "weights/field_weights.hpp"
 
 namespace flowdlo::estimator {
 namespace {
@@ -44,35 +43,29 @@ flow::SamplerConfig sampler_config(const Config& config) {
                        .image_pixels = pixels}};
 }
 
-flow::WeightsSource source_of(const weights::Loaded& loaded) {
-  return [file = loaded.file, first = std::weak_ptr(loaded.weights)] {
-    auto weights = first.lock();
-    return weights ? weights : std::make_shared<const weights::Weights>(file->decoded());
+flow::WeightsSource source_of(std::shared_ptr<const weights::KeptFile> model) {
+  return [model = std::move(model)] {
+    return std::make_shared<const weights::Weights>(model->decoded());
   };
 }
 
-Result<FieldNetworks> open_field(const Config& config, const weights::Place& beside) {
-  if (config.field == FieldChoice::kOff) return FieldNetworks{};
+Result<FieldFile> open_field(const Config& config, const weights::Place& beside) {
+  if (config.field == FieldChoice::kOff) return FieldFile{};
   const auto place =
       config.field_weights.empty() ? beside : weights::Place{config.field_weights, {}};
-  if (place.file.empty()) return FieldNetworks{};
+  if (place.file.empty()) return FieldFile{};
   auto loaded = weights::load_field(place);
   if (!loaded) return loaded.error();
-  const auto cpu = cpu_back_end(1);
-  FieldNetworks networks;
+  FieldFile file;
   if (loaded->refine && config.field != FieldChoice::kStrands) {
-    auto refine = refine::Network::create(*loaded->refine, cpu.make_program);
+    auto refine = refine::Network::create(*loaded->refine, cpu_back_end(1).make_program);
     if (!refine) return refine.error();
-    networks.refine = *std::move(refine);
+    file.refine = *std::move(refine);
   }
   loaded->refine.reset();
-  networks.calibration = std::move(loaded->calibration);
-  auto network =
-      field::Network::create(std::make_shared<const weights::FieldWeights>(*std::move(loaded)),
-                             cpu_back_end(config.threads).make_program);
-  if (!network) return network.error();
-  networks.field = *std::move(network);
-  return networks;
+  file.calibration = std::move(loaded->calibration);
+  file.field = std::make_shared<const weights::FieldWeights>(*std::move(loaded));
+  return file;
 }
 
 void return_free_memory() {
@@ -93,23 +86,23 @@ weights::PriorKind prior_kind(const Config& config, const weights::Metadata& met
   return metadata.variant.prior_kind;
 }
 
-Result<std::optional<gate::Fitted>> open_gate(const Config& config, const weights::Weights& model,
+Result<std::optional<gate::Fitted>> open_gate(const Config& config, const weights::KeptFile& model,
                                               const std::optional<weights::Calibration>& of_field) {
-  const bool suits = model.calibration && model.metadata.trained &&
-                     prior_kind(config, model.metadata) == weights::PriorKind::kRefined;
+  const bool suits = model.calibration() && model.metadata().trained &&
+                     prior_kind(config, model.metadata()) == weights::PriorKind::kRefined;
   const bool asked = config.gate == GateChoice::kCalibrated;
   if (config.gate == GateChoice::kThesis || (!asked && !suits)) {
     return std::optional<gate::Fitted>();
   }
-  if (!model.calibration) {
+  if (!model.calibration()) {
     return Error{
         ErrorCode::kBadWeights,
         fmt::format("Estimator: expected weights that a calibrated gate was fitted to, got "
                     "\"{}\" without a section \"calibration\"; fit one with flowdlo-lab "
                     "gate-fit, or leave Config::gate to the weights",
-                    model.metadata.name)};
+                    model.metadata().name)};
   }
-  return gate::Fitted::of_weights(model.calibration, of_field);
+  return gate::Fitted::of_weights(model.calibration(), of_field);
 }
 
 }  // namespace flowdlo::estimator

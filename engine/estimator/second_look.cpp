@@ -4,10 +4,10 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <new>
 #include <numeric>
 #include <utility>
 
+#include "estimator/see_axes.hpp"
 #include "field/axes.hpp"
 #include "field/strand_field.hpp"
 #include "gate/one_rope.hpp"
@@ -42,8 +42,7 @@ Reading read_by(const Trace& trace, std::size_t most, const Conditions& conditio
                     config.pool);
   });
   if (!reading) {
-    // A reading that is left out for want of memory would make the frame's estimate another one.
-    if (reading.error().code == ErrorCode::kOutOfMemory) throw std::bad_alloc();
+    throw_what_ends_a_frame(reading.error());
     return {};
   }
   if (reading->size() > most) reading->resize(most);

@@ -7,6 +7,7 @@
 #include "field/axes.hpp"
 #include "field/network.hpp"
 #include "flowdlo/frame.hpp"
+#include "flowdlo/result.hpp"
 #include "threads/pool.hpp"
 
 namespace flowdlo::estimator {
@@ -15,9 +16,12 @@ namespace flowdlo::estimator {
 /// nothing where the field is not to be asked, for want of time as well, or fails.
 using SeeAxes = std::function<std::optional<field::Axes>(float rope_width_px)>;
 
+/// Throws std::bad_alloc where `error` is want of memory, guard::Failure where a device was lost:
+/// without the reading that it ended the frame's estimate would be another one.
+void throw_what_ends_a_frame(const Error& error);
+
 /// What `network` sees of `frame`, both of which have to outlive it; null where there is none.
-/// `near_parts` and `pool` as field::see's. A call that finds no memory throws std::bad_alloc: the
-/// estimate without a field would be another one.
+/// `near_parts` and `pool` as field::see's. Its calls throw as throw_what_ends_a_frame does.
 [[nodiscard]] SeeAxes seen_by(field::Network* network, const Frame& frame, bool near_parts = false,
                               threads::Pool* pool = nullptr);
 

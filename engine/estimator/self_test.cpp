@@ -5,9 +5,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "estimator/field_trial.hpp"
 #include "estimator/known_scene.hpp"
+#include "field/network.hpp"
 #include "geometry/camera.hpp"
 #include "reference/program.hpp"
+#include "weights/field_weights.hpp"
 
 namespace flowdlo::estimator {
 namespace {
@@ -36,6 +39,22 @@ Result<flow::Prediction> predict(const flow::ProgramFactory& factory, const Know
       {.frame = frame, .cloud = cloud, .field = field, .draw_priors = {&scene.prior, 1}});
 }
 
+/// The strand field's network on both, of noise for weights.
+Verdict field_test(const flow::ProgramFactory& device) {
+  constexpr weights::FieldSizes kSmall{.fine = 16, .middle = 16, .coarse = 16};
+  const auto noise =
+      std::make_shared<const weights::FieldWeights>(weights::seeded_field(kSmall, 1));
+  auto there = field::Network::create(noise, device);
+  if (!there) return {false, there.error().message};
+  auto here = field::Network::create(noise, [] { return reference::create_program(1); });
+  if (!here) return {false, "the CPU back end failed: " + here.error().message};
+  const auto trial = try_field(*there, *here);
+  if (!trial) return {false, trial.error().message};
+  return {trial->agrees(), fmt::format("wrong numbers: the strand field's network differs from the "
+                                       "CPU's by {:.2g} of its largest value",
+                                       trial->difference)};
+}
+
 }  // namespace
 
 Verdict self_test(const flow::ProgramFactory& device) {
@@ -56,6 +75,7 @@ Verdict self_test(const flow::ProgramFactory& device) {
     worst_m = std::isfinite(distance) ? std::max(worst_m, distance) : 1e9F;
   }
   const bool passed = worst_m <= kTolerance_m;
+  if (const Verdict of_field = field_test(device); passed && !of_field.passed) return of_field;
   return {passed, fmt::format("{}: nodes differ from the CPU by at most {:.2g} mm",
                               passed ? "passed" : "wrong numbers", worst_m * 1e3F)};
 }

@@ -14,8 +14,9 @@ struct Verdict {
 };
 
 /// Runs a small seeded model (every kernel, two steps, one draw) on `device` and on the CPU back
-/// end and compares the predictions. Passes within 0.1 mm and when the visible points agree bit for
-/// bit.
+/// end and compares the predictions; then a small strand field's network. Passes within 0.1 mm,
+/// when the visible points agree bit for bit, and when the network's values do as
+/// FieldTrial::agrees has it.
 [[nodiscard]] Verdict self_test(const flow::ProgramFactory& device);
 
 }  // namespace flowdlo::estimator

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 
 namespace flowdlo::field {
 namespace {
@@ -122,13 +123,22 @@ Result<void> Network::build(int capacity) {
 }
 
 Result<Network> Network::create(std::shared_ptr<const weights::FieldWeights> weights,
-                                ProgramFactory make_program) {
-  Network network(std::move(weights), std::move(make_program));
+                                ProgramFactory make_program, ProgramFactory spare) {
+  Network network(std::move(weights), std::move(make_program), std::move(spare));
   if (auto built = network.build(kFirstCapacity); !built) return built.error();
   return network;
 }
 
 Result<void> Network::run(Look& look, const BlockMap& blocks, const image::Rect& keep) {
+  auto done = run_once(look, blocks, keep);
+  if (done || !spare_ || done.error().code == ErrorCode::kOutOfMemory) return done;
+  make_program_ = std::exchange(spare_, {});
+  on_spare_ = true;
+  if (auto built = build(std::max(capacity_, kFirstCapacity)); !built) return built;
+  return run_once(look, blocks, keep);
+}
+
+Result<void> Network::run_once(Look& look, const BlockMap& blocks, const image::Rect& keep) {
   const auto count = static_cast<int>(blocks.blocks.size());
   if (count > capacity_) {
     int capacity = capacity_;

@@ -23,10 +23,15 @@ inline constexpr int kMostBlocks = 256;
 
 class Network {
  public:
-  /// Builds a program for a few blocks; a region of more makes it grow once. Fails as
+  /// Builds a program for a few blocks; a region of more makes it grow once. `spare`, where given,
+  /// makes the programs from the first failure of a later one on, but for want of memory. Fails as
   /// ops::Program::build does.
   [[nodiscard]] static Result<Network> create(std::shared_ptr<const weights::FieldWeights> weights,
-                                              ProgramFactory make_program);
+                                              ProgramFactory make_program,
+                                              ProgramFactory spare = {});
+
+  /// Whether a program has failed and the spare makes them now.
+  [[nodiscard]] bool on_spare() const { return on_spare_; }
 
   /// Gives the planes of a block, [kBlock_px, kBlock_px]; called from any thread.
   using PlanesOf = std::function<void(const image::Point& block, PlanesOfPixel* to)>;
@@ -45,8 +50,11 @@ class Network {
   }
 
  private:
-  Network(std::shared_ptr<const weights::FieldWeights> weights, ProgramFactory make_program)
-      : weights_(std::move(weights)), make_program_(std::move(make_program)) {}
+  Network(std::shared_ptr<const weights::FieldWeights> weights, ProgramFactory make_program,
+          ProgramFactory spare)
+      : weights_(std::move(weights)),
+        make_program_(std::move(make_program)),
+        spare_(std::move(spare)) {}
 
   [[nodiscard]] Result<void> build(int capacity);
   /// What is looked at: all blocks, and what they are given and say.
@@ -59,10 +67,13 @@ class Network {
 
   /// The blocks of one run; what it says goes to the output for those that `keep` holds.
   [[nodiscard]] Result<void> run(Look& look, const BlockMap& blocks, const image::Rect& keep);
+  [[nodiscard]] Result<void> run_once(Look& look, const BlockMap& blocks, const image::Rect& keep);
   [[nodiscard]] Result<void> run_parts(Look& look, const image::Rect& keep);
 
   std::shared_ptr<const weights::FieldWeights> weights_;
   ProgramFactory make_program_;
+  ProgramFactory spare_;
+  bool on_spare_ = false;
   std::unique_ptr<ops::Program> program_;
   int capacity_ = 0;
   ops::Tensor map_;

@@ -131,6 +131,10 @@ Result<Sampler> Sampler::create(WeightsSource weights, ProgramFactory factory,
   return sampler;
 }
 
+Sampler Sampler::later(WeightsSource weights, ProgramFactory factory, const SamplerConfig& config) {
+  return {std::move(weights), std::move(factory), config};
+}
+
 bool Sampler::fits(const Capacity& need) const {
   const Capacity& have = config_.capacity;
   const bool depth_fits = !handles_.depth || need.image_pixels <= have.image_pixels;

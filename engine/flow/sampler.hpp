@@ -65,6 +65,10 @@ class Sampler {
   [[nodiscard]] static Result<Sampler> create(std::shared_ptr<const weights::Weights> weights,
                                               ProgramFactory factory, const SamplerConfig& config);
 
+  /// Recorded, compiled and warmed up by the first frame that asks for it, and fails there.
+  [[nodiscard]] static Sampler later(WeightsSource weights, ProgramFactory factory,
+                                     const SamplerConfig& config);
+
   /// One run. A frame beyond the capacity makes the program anew, once, with more; where that fails
   /// the next frame tries again.
   [[nodiscard]] Result<Prediction> sample(const SampleInput& input);
@@ -72,9 +76,9 @@ class Sampler {
   /// x_0 [D, 64, 4], normalised space; column 3 is zero.
   [[nodiscard]] const std::vector<float>& source() const { return source_; }
 
-  /// Of the last run, by stage.
+  /// Of the last run, by stage; empty before the first.
   [[nodiscard]] std::vector<std::pair<std::string, double>> stage_times_ms() const {
-    return program_->stage_times_ms();
+    return built_ ? program_->stage_times_ms() : std::vector<std::pair<std::string, double>>();
   }
 
  private:

@@ -18,6 +18,15 @@ Error out_of_memory(const char* who) noexcept {
   }
 }
 
+/// A copy: another thread may still hold the exception.
+Error failed(const char* who, const Failure& failure) noexcept {
+  try {
+    return failure.error();
+  } catch (const std::exception&) {
+    return out_of_memory(who);
+  }
+}
+
 Error unexpected(const char* who, const std::exception& thrown) noexcept {
   try {
     return {ErrorCode::kInternal, std::string(who) + ": expected no exception, got \"" +
@@ -34,6 +43,8 @@ Error caught(const char* who) noexcept {
     throw;
   } catch (const std::bad_alloc&) {
     return out_of_memory(who);
+  } catch (const Failure& failure) {
+    return failed(who, failure);
   } catch (const std::exception& thrown) {
     return unexpected(who, thrown);
   }

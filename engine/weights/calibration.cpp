@@ -63,7 +63,8 @@ Calibration decode_calibration(const CalibrationHead& head, const std::vector<St
   }
   const std::size_t before = faults.size();
   const auto matched = match(stored, calibration_manifest(), kReadable, faults);
-  calibration.tensors = decode(matched, calibration_manifest(), faults);
+  expect_finite(matched, faults);
+  calibration.tensors = decode(matched, calibration_manifest());
   const std::string got = digest(matched);
   if (faults.size() == before && head.sha256 && got != *head.sha256) {
     faults.push_back(fmt::format("section {}: expected SHA-256 {}, got {}; copy or fit it again",

@@ -73,7 +73,8 @@ Result<ws::FdwFile> ws::parse_exchanged(std::span<const std::uint8_t> bytes,
   for (auto& fault : weights::faults(result.weights.metadata)) faults.push_back(std::move(fault));
   const Variant variant = usable(result.weights.metadata.variant);
   const auto matched = match(parsed.tensors, manifest(variant), kReadable, faults);
-  result.weights.tensors = decode(matched, manifest(variant), faults);
+  expect_finite(matched, faults);
+  result.weights.tensors = decode(matched, manifest(variant));
   result.sha256 = digest(matched);
   if (faults.empty()) check_digest(parsed.metadata, result.sha256, faults);
   if (!faults.empty()) return bad_weights(file, faults);

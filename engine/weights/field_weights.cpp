@@ -125,7 +125,8 @@ Result<FieldWeights> parse_field(std::span<const std::uint8_t> bytes,
   if (!faults.empty()) return bad_weights(file, faults);
   const auto manifest = whole_manifest(weights.sizes, refines);
   const auto matched = match(parsed.tensors, manifest, kReadable, faults);
-  weights.tensors = decode(matched, manifest, faults);
+  expect_finite(matched, faults);
+  weights.tensors = decode(matched, manifest);
   if (refines) {
     const auto first =
         weights.tensors.begin() + static_cast<std::ptrdiff_t>(field_manifest(weights.sizes).size());

@@ -3,8 +3,9 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
+#include <optional>
 #include <span>
+#include <utility>
 
 #include "weights/file.hpp"
 #include "weights/location.hpp"
@@ -12,30 +13,31 @@
 
 namespace flowdlo::weights {
 
-struct Loaded;
-
 class KeptFile {
  public:
-  /// The same model as `load` gave, without the sections beside it.
+  [[nodiscard]] const Metadata& metadata() const { return metadata_; }
+  [[nodiscard]] const std::optional<Calibration>& calibration() const { return calibration_; }
+
+  /// The same model as `load` gives, without the sections beside it.
   [[nodiscard]] Weights decoded() const;
 
  private:
-  friend Result<Loaded> load_and_keep(const Place& place);
-  KeptFile(files::FileBytes read, std::span<const std::uint8_t> bytes, Metadata metadata)
-      : read_(std::move(read)), bytes_(bytes), metadata_(std::move(metadata)) {}
+  friend Result<KeptFile> keep(const Place& place);
+  KeptFile(files::FileBytes read, std::span<const std::uint8_t> bytes, Metadata metadata,
+           std::optional<Calibration> calibration)
+      : read_(std::move(read)),
+        bytes_(bytes),
+        metadata_(std::move(metadata)),
+        calibration_(std::move(calibration)) {}
 
   files::FileBytes read_;                ///< empty where the bytes are the library's own
   std::span<const std::uint8_t> bytes_;  ///< all of the file
   Metadata metadata_;
+  std::optional<Calibration> calibration_;
 };
 
-/// What a file holds, and the file.
-struct Loaded {
-  std::shared_ptr<const Weights> weights;
-  std::shared_ptr<const KeptFile> file;
-};
-
-/// As `load`, and keeps the file's bytes; those within the library stay where they are.
-[[nodiscard]] Result<Loaded> load_and_keep(const Place& place);
+/// Verifies all that `load` does, keeps the file's bytes, and decodes no tensor of the model; bytes
+/// within the library stay where they are. Fails as `load` does.
+[[nodiscard]] Result<KeptFile> keep(const Place& place);
 
 }  // namespace flowdlo::weights

@@ -129,38 +129,56 @@ std::optional<Calibration> calibration_in(const fdw::Weights& root,
   return calibration;
 }
 
+/// What a file holds, all of it checked.
+struct Content {
+  Metadata metadata;
+  std::vector<StoredTensor> stored{};
+  std::vector<const StoredTensor*> matched{};  ///< of `stored`, in the manifest's order
+  std::string sha256{};                        ///< of the tensors
+  std::optional<Calibration> calibration{};
+};
+
+Result<Content> checked(std::span<const std::uint8_t> bytes, const std::filesystem::path& file) {
+  const std::string envelope = envelope_fault(bytes);
+  if (!envelope.empty()) return bad_weights(file, {envelope});
+
+  const fdw::Weights& root = *fdw::GetWeights(bytes.data());
+  std::vector<std::string> faults;
+  Content content{metadata_of(*root.metadata(), faults)};
+  content.stored = stored_tensors(root);
+  content.matched =
+      match(content.stored, manifest(usable(content.metadata.variant)), kStorable, faults);
+  expect_finite(content.matched, faults);
+  content.sha256 = digest(content.matched);
+  // With a tensor missing the digest must differ: that is said already.
+  if (faults.empty() && content.sha256 != root.metadata()->sha256()->string_view()) {
+    faults.push_back(fmt::format("tensors: expected SHA-256 {}, got {}; copy or export it again",
+                                 in_quotes(root.metadata()->sha256()->string_view()),
+                                 content.sha256));
+  }
+  content.calibration = calibration_in(root, faults);
+  if (!faults.empty()) return bad_weights(file, faults);
+  return content;
+}
+
 }  // namespace
 
 Weights KeptFile::decoded() const {
   std::vector<std::string> faults;  // none: they were looked for when the file was read
   const auto stored = stored_tensors(*fdw::GetWeights(bytes_.data()));
   const auto matched = match(stored, manifest(metadata_.variant), kStorable, faults);
-  return {metadata_, decode(matched, manifest(metadata_.variant), faults), std::nullopt};
+  return {metadata_, decode(matched, manifest(metadata_.variant)), std::nullopt};
 }
 
 Result<FdwFile> parse_fdw(std::span<const std::uint8_t> bytes, const std::filesystem::path& file) {
-  const std::string envelope = envelope_fault(bytes);
-  if (!envelope.empty()) return bad_weights(file, {envelope});
-
-  const fdw::Weights& root = *fdw::GetWeights(bytes.data());
-  std::vector<std::string> faults;
+  auto content = checked(bytes, file);
+  if (!content) return content.error();
   FdwFile result;
-  result.weights.metadata = metadata_of(*root.metadata(), faults);
-  const Variant variant = usable(result.weights.metadata.variant);
-
-  const auto stored = stored_tensors(root);
-  const auto matched = match(stored, manifest(variant), kStorable, faults);
-  result.weights.tensors = decode(matched, manifest(variant), faults);
-  result.sha256 = digest(matched);
-  // With a tensor missing the digest must differ: that is said already.
-  if (faults.empty() && result.sha256 != root.metadata()->sha256()->string_view()) {
-    faults.push_back(fmt::format("tensors: expected SHA-256 {}, got {}; copy or export it again",
-                                 in_quotes(root.metadata()->sha256()->string_view()),
-                                 result.sha256));
-  }
-  result.weights.calibration = calibration_in(root, faults);
-  if (!faults.empty()) return bad_weights(file, faults);
-  for (const StoredTensor* tensor : matched) {
+  result.weights = {content->metadata,
+                    decode(content->matched, manifest(content->metadata.variant)),
+                    std::move(content->calibration)};
+  result.sha256 = std::move(content->sha256);
+  for (const StoredTensor* tensor : content->matched) {
     result.types.push_back(tensor->dtype == DType::kF16 ? StorageType::kF16 : StorageType::kF32);
   }
   return result;
@@ -172,7 +190,7 @@ Result<FdwFile> read_fdw(const std::filesystem::path& file) {
   return parse_fdw(bytes->view(), file);
 }
 
-Result<Loaded> load_and_keep(const Place& place) {
+Result<KeptFile> keep(const Place& place) {
   files::FileBytes read;
   auto bytes = place.bytes;
   if (bytes.empty()) {
@@ -181,11 +199,10 @@ Result<Loaded> load_and_keep(const Place& place) {
     read = *std::move(content);
     bytes = read.view();
   }
-  auto parsed = parse_fdw(bytes, place.file);
-  if (!parsed) return parsed.error();
-  auto weights = std::make_shared<const Weights>(std::move(parsed->weights));
-  KeptFile kept(std::move(read), bytes, weights->metadata);
-  return Loaded{std::move(weights), std::make_shared<const KeptFile>(std::move(kept))};
+  auto content = checked(bytes, place.file);
+  if (!content) return content.error();
+  return KeptFile(std::move(read), bytes, std::move(content->metadata),
+                  std::move(content->calibration));
 }
 
 Result<Weights> load(const std::filesystem::path& file) {

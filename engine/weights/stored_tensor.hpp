@@ -35,11 +35,13 @@ struct StoredTensor {
                                                      std::span<const DType> dtypes,
                                                      std::vector<std::string>& faults);
 
-/// The values of tensors that matched a manifest, as f32; values that are not finite go to
-/// `faults`.
+/// Values of matched tensors that are not finite go to `faults`.
+void expect_finite(const std::vector<const StoredTensor*>& matched,
+                   std::vector<std::string>& faults);
+
+/// The values of tensors that matched a manifest, as f32, whatever they are.
 [[nodiscard]] std::vector<Tensor> decode(const std::vector<const StoredTensor*>& matched,
-                                         std::vector<Expected> manifest,
-                                         std::vector<std::string>& faults);
+                                         std::vector<Expected> manifest);
 
 /// SHA-256 of the matched tensors' bytes, one after another.
 [[nodiscard]] std::string digest(const std::vector<const StoredTensor*>& matched);

@@ -34,6 +34,15 @@ enum class FieldChoice {
   kStrands,  ///< as kBeside, but nodes stay where the prior has them
 };
 
+/// Where the strand field's network runs.
+enum class FieldDevice {
+  kFaster,  ///< on the real GPU that Config::device stands for, or on the CPU back end, whichever
+            ///< was faster in a trial when the estimator was made; on the CPU where a trial shows
+            ///< other values, and beside CPU drivers (lavapipe), which take three times as long
+  kCpu,     ///< on the CPU back end, whatever the model runs on
+  kSame,    ///< on the device that the model runs on, untried
+};
+
 /// How much of the model runs a frame.
 enum class Quality {
   kFull,  ///< Config::euler_steps and Config::draws
@@ -65,6 +74,7 @@ struct Config {
   PriorChoice prior = PriorChoice::kOfWeights;
   GateChoice gate = GateChoice::kOfWeights;
   FieldChoice field = FieldChoice::kBeside;
+  FieldDevice field_device = FieldDevice::kFaster;
   std::filesystem::path field_weights{};  ///< .safetensors; empty: beside `weights`, if there
   /// How many ropes Estimator::estimate_ropes looks for where no Frame::instances tell; 0: as many
   /// as the mask shows, 1..kMostRopes: so many. Estimator::estimate answers one, whatever this is.

@@ -71,6 +71,10 @@ class FLOWDLO_EXPORT Estimator {
   /// thread of its own, and taken for the next frame once its self-test passes. Moved from: empty.
   [[nodiscard]] const std::string& device() const;
 
+  /// The same of the strand field's network, which Config::field_device places; empty where there
+  /// is none.
+  [[nodiscard]] const std::string& field_device() const;
+
   /// K and D in use: Config's, or those that Quality::kFast stands for. Moved from: 0.
   [[nodiscard]] int euler_steps() const;
   [[nodiscard]] int draws() const;

@@ -61,6 +61,12 @@ enum { FLOWDLO_PRIOR_OF_WEIGHTS = 0, FLOWDLO_PRIOR_THESIS = 1, FLOWDLO_PRIOR_REF
 enum { FLOWDLO_GATE_OF_WEIGHTS = 0, FLOWDLO_GATE_THESIS = 1, FLOWDLO_GATE_CALIBRATED = 2 };
 enum { FLOWDLO_FIELD_BESIDE = 0, FLOWDLO_FIELD_OFF = 1, FLOWDLO_FIELD_STRANDS = 2 };
 
+enum {
+  FLOWDLO_FIELD_DEVICE_FASTER = 0, /* a real GPU or the CPU, whichever a trial finds faster */
+  FLOWDLO_FIELD_DEVICE_CPU = 1,
+  FLOWDLO_FIELD_DEVICE_SAME = 2 /* that of the model, untried */
+};
+
 /* flowdlo::Config of <flowdlo/config.hpp>, which says more of each field; the defaults are its. */
 typedef struct flowdlo_config {
   size_t struct_size;        /* bytes; flowdlo_config_init */
@@ -84,6 +90,8 @@ typedef struct flowdlo_config {
   double budget_ms;          /* that an estimate may take, milliseconds; 0: no limit */
   int32_t probe;             /* 1: Vulkan drivers are asked in processes of their own first */
   int32_t ropes;             /* that flowdlo_estimator_estimate_ropes looks for; 0: all, 1..32 */
+  int32_t field_device;      /* FLOWDLO_FIELD_DEVICE_: where the strand field runs */
+  int32_t reserved_2;        /* 0 */
 } flowdlo_config;
 
 /* Fills `config` with the defaults. `struct_size` is sizeof(flowdlo_config). */
@@ -401,6 +409,9 @@ FLOWDLO_EXPORT flowdlo_status flowdlo_estimator_instances(const flowdlo_estimato
 /* "cpu", or the name of the Vulkan device in use; "" for NULL. Valid until the estimator's next
  * estimate, or its end. */
 FLOWDLO_EXPORT const char* flowdlo_estimator_device(const flowdlo_estimator* estimator);
+
+/* The same of the strand field's network; "" where there is none as well. */
+FLOWDLO_EXPORT const char* flowdlo_estimator_field_device(const flowdlo_estimator* estimator);
 
 #ifdef __cplusplus
 }

@@ -44,6 +44,8 @@ class Estimator:
     field: "auto"; "strands": no network moves the nodes; or "off": none sees strands, which a mask
       merges, either.
     field_weights: its .safetensors file; by default the one beside the weights.
+    field_device: where what sees strands runs: "auto", on a real GPU or on the CPU, whichever a trial
+        finds faster; "cpu"; or "device", that of `device`, untried.
     rope_length_m: of the whole rope, metres, where it is known: helps at crossings.
     ropes: how many `estimate_ropes` looks for, 1..32; 0: as many as there are.
     budget_ms: milliseconds that an estimate may take; what would end too late is left out, and
@@ -72,6 +74,7 @@ class Estimator:
         gate: str | None = None,
         field: str | None = None,
         field_weights: Path | None = None,
+        field_device: str | None = None,
         rope_length_m: float | None = None,
         ropes: int | None = None,
         budget_ms: float | None = None,
@@ -91,6 +94,7 @@ class Estimator:
             "prior": prior,
             "gate": gate,
             "field": field,
+            "field_device": field_device,
             "rope_length_m": rope_length_m,
             "ropes": ropes,
             "budget_ms": budget_ms,
@@ -181,6 +185,11 @@ class Estimator:
     def device(self) -> str:
         """"cpu", or the name of the Vulkan device in use."""
         return self._core.device
+
+    @property
+    def field_device(self) -> str:
+        """The same of what sees strands; empty where nothing does."""
+        return self._core.field_device
 
     @property
     def euler_steps(self) -> int:

@@ -216,6 +216,14 @@ TEST(CApi, EveryFieldOfTheConfigReachesTheEstimator) {  // each fault is named o
   EXPECT_EQ(flowdlo_estimator_create(&config, &estimator), FLOWDLO_BAD_INPUT);
   EXPECT_THAT(flowdlo_last_error(), HasSubstr("flowdlo_config.reserved: expected 0, got 1"));
   config = config_with(FLOWDLO_WEIGHTS);
+  config.reserved_2 = 2;
+  EXPECT_EQ(flowdlo_estimator_create(&config, &estimator), FLOWDLO_BAD_INPUT);
+  EXPECT_THAT(flowdlo_last_error(), HasSubstr("flowdlo_config.reserved_2: expected 0, got 2"));
+  config = config_with(FLOWDLO_WEIGHTS);
+  config.field_device = 9;
+  EXPECT_EQ(flowdlo_estimator_create(&config, &estimator), FLOWDLO_BAD_INPUT);
+  EXPECT_THAT(flowdlo_last_error(), HasSubstr("Config.field_device: "));
+  config = config_with(FLOWDLO_WEIGHTS);
   config.ropes = 33;
   EXPECT_EQ(flowdlo_estimator_create(&config, &estimator), FLOWDLO_BAD_INPUT);
   EXPECT_THAT(flowdlo_last_error(), HasSubstr("Config.ropes: "));
@@ -282,6 +290,8 @@ TEST(CApi, NullIsAnErrorNotACrash) {
   refused(flowdlo_estimator_estimate(estimator.get(), &no_images, &estimate));
   EXPECT_STREQ(flowdlo_estimator_device(nullptr), "");
   EXPECT_STREQ(flowdlo_estimator_device(estimator.get()), "cpu");
+  EXPECT_STREQ(flowdlo_estimator_field_device(nullptr), "");
+  EXPECT_STREQ(flowdlo_estimator_field_device(estimator.get()), "");  // its weights have no field
   flowdlo_estimator_destroy(nullptr);
   flowdlo_frame_folder_destroy(nullptr);
 }

@@ -37,6 +37,10 @@ TEST(ConfigCheck, EnumerationsBeyondTheirNamesAreRefused) {
                 HasSubstr("Config.prior: " + got));
     EXPECT_THAT(fault_of([&](Config& c) { c.gate = static_cast<GateChoice>(value); }),
                 HasSubstr("Config.gate: " + got));
+    EXPECT_THAT(fault_of([&](Config& c) { c.field = static_cast<FieldChoice>(value); }),
+                HasSubstr("Config.field: " + got));
+    EXPECT_THAT(fault_of([&](Config& c) { c.field_device = static_cast<FieldDevice>(value); }),
+                HasSubstr("Config.field_device: " + got));
   }
 }
 

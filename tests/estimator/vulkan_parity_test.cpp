@@ -5,11 +5,16 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
+#include <memory>
 
+#include "estimator/field_trial.hpp"
 #include "estimator/self_test.hpp"
+#include "field/network.hpp"
 #include "reference/program.hpp"
 #include "support/conditions.hpp"
 #include "vulkan/backend.hpp"
+#include "weights/field_weights.hpp"
 
 namespace flowdlo {
 namespace {
@@ -149,6 +154,22 @@ TEST_F(VulkanParity, FrameBeyondTheCapacityGrowsIt) {
 TEST_F(VulkanParity, SelfTestPasses) {
   const auto verdict = estimator::self_test(on_device());
   EXPECT_TRUE(verdict.passed) << verdict.text;
+}
+
+TEST_F(VulkanParity, TheStrandFieldThatShipsAgreesWithTheCpus) {
+  auto loaded = weights::load_field(std::filesystem::path(FLOWDLO_FIELD_WEIGHTS));
+  ASSERT_TRUE(loaded) << loaded.error().message;
+  const auto weights = std::make_shared<const weights::FieldWeights>(*std::move(loaded));
+  auto gpu = field::Network::create(weights, on_device());
+  auto cpu = field::Network::create(weights, on_cpu());
+  ASSERT_TRUE(gpu) << gpu.error().message;
+  ASSERT_TRUE(cpu);
+  const auto trial = estimator::try_field(*gpu, *cpu);
+  ASSERT_TRUE(trial) << trial.error().message;
+  EXPECT_LT(trial->difference, 1e-4F);
+  EXPECT_TRUE(trial->agrees());
+  EXPECT_GT(trial->device_ms, 0);
+  EXPECT_GT(trial->cpu_ms, 0);
 }
 
 }  // namespace

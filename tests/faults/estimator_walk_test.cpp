@@ -174,5 +174,101 @@ TEST_F(EstimatorWalk, EstimateOfADeviceAskedForByNameEndsInAnError) {
   EXPECT_TRUE(next->estimate(wave_.frame()));
 }
 
+/// With the weights that ship, whose strand field sees every frame before anything else does; the
+/// model is idle.
+Config with_field(const char* device) {
+  Config made = config(device);
+  made.weights = FLOWDLO_DEFAULT_WEIGHTS;
+  made.quality = Quality::kFast;
+  made.field_device = FieldDevice::kSame;
+  return made;
+}
+
+class FieldWalk : public EstimatorWalk {
+ protected:
+  [[nodiscard]] std::string on_cpu() const {
+    auto cpu = Estimator::create(with_field("cpu"));
+    return cpu ? bits_of(*cpu->estimate(wave_.frame())) : cpu.error().message;
+  }
+};
+
+TEST_F(FieldWalk, AutoPutsTheCpuInThePlaceOfADeviceThatTheFieldHasLostAndComesBack) {
+  relay()->pose_as_gpu(true);
+  auto made = Estimator::create(with_field("auto"));
+  ASSERT_TRUE(made) << made.error().message;
+  ASSERT_EQ(made->device(), "Relayed GPU");
+  ASSERT_EQ(made->field_device(), "Relayed GPU");
+  const std::string on_device = bits_of(*made->estimate(wave_.frame()));
+  const std::string cpu_bits = on_cpu();
+
+  relay()->hide(true);
+  relay()->fail("vkQueueSubmit", 1, VK_ERROR_DEVICE_LOST);
+  const auto within = made->estimate(wave_.frame());
+  ASSERT_TRUE(within) << within.error().message;
+  EXPECT_TRUE(relay()->failed());
+  EXPECT_EQ(made->field_device(), "cpu");
+  EXPECT_EQ(bits_of(*within), cpu_bits);
+  ASSERT_TRUE(made->estimate(wave_.frame()));
+  EXPECT_EQ(made->device(), "cpu");
+
+  relay()->reset();
+  relay()->hide(false);
+  const auto patience = std::chrono::steady_clock::now() + seconds(120);
+  std::string last = cpu_bits;
+  while (made->field_device() == "cpu" && std::chrono::steady_clock::now() < patience) {
+    EXPECT_EQ(last, cpu_bits);
+    const auto estimate = made->estimate(wave_.frame());
+    ASSERT_TRUE(estimate) << estimate.error().message;
+    last = bits_of(*estimate);
+    std::this_thread::sleep_for(milliseconds(20));
+  }
+  EXPECT_EQ(made->device(), "Relayed GPU");
+  EXPECT_EQ(made->field_device(), "Relayed GPU");
+  EXPECT_EQ(last, on_device);
+}
+
+TEST_F(FieldWalk, ADeviceAskedForByNameEndsInAnErrorWhereTheFieldLosesIt) {
+  auto made = Estimator::create(with_field("vulkan"));
+  ASSERT_TRUE(made) << made.error().message;
+  ASSERT_EQ(made->field_device(), made->device());
+  ASSERT_TRUE(made->estimate(wave_.frame()));
+  relay()->fail("vkWaitForFences", 1, VK_ERROR_DEVICE_LOST);
+  const auto lost = made->estimate(wave_.frame());
+  ASSERT_FALSE(lost);
+  EXPECT_EQ(lost.error().code, ErrorCode::kDeviceLost);
+  relay()->reset();
+  EXPECT_EQ(made->estimate(wave_.frame()).error().code, ErrorCode::kDeviceLost) << "it stays lost";
+}
+
+TEST_F(FieldWalk, AutoTakesTheCpuWhereTheFieldCannotBeMadeOnTheDevice) {
+  relay()->pose_as_gpu(true);
+  const std::string cpu_bits = on_cpu();
+  for (const auto& [function, result] :
+       {std::pair{"vkAllocateMemory", VK_ERROR_OUT_OF_DEVICE_MEMORY},
+        std::pair{"vkQueueSubmit", VK_ERROR_DEVICE_LOST}}) {
+    SCOPED_TRACE(function);
+    relay()->fail(function, 1, result);
+    auto made = Estimator::create(with_field("auto"));
+    ASSERT_TRUE(made) << made.error().message;
+    const auto estimate = made->estimate(wave_.frame());
+    ASSERT_TRUE(estimate) << estimate.error().message;
+    EXPECT_EQ(made->field_device(), "cpu");
+    EXPECT_EQ(bits_of(*estimate), cpu_bits);
+    relay()->reset();
+  }
+}
+
+/// Lavapipe is no GPU: a trial finds the CPU back end faster, and the model stays where it was.
+TEST_F(FieldWalk, ATrialSaysWhereTheFieldIsFaster) {
+  relay()->pose_as_gpu(true);
+  Config tried = with_field("auto");
+  tried.field_device = FieldDevice::kFaster;
+  auto made = Estimator::create(tried);
+  ASSERT_TRUE(made) << made.error().message;
+  EXPECT_EQ(made->device(), "Relayed GPU");
+  EXPECT_EQ(made->field_device(), "cpu");
+  EXPECT_EQ(bits_of(*made->estimate(wave_.frame())), on_cpu());
+}
+
 }  // namespace
 }  // namespace flowdlo::testing

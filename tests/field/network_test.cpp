@@ -8,6 +8,7 @@
 #include "field/sight.hpp"
 #include "mat/mat_image.hpp"
 #include "reference/program.hpp"
+#include "support/faulty_program.hpp"
 
 namespace flowdlo::field {
 namespace {
@@ -222,6 +223,43 @@ TEST(Network, MoreThanFitsOneRunComesInPartsWithoutASeam) {
   const image::Rect inner{3 * kBlock_px, 3 * kBlock_px, 7 * kBlock_px, 6 * kBlock_px};
   // Tiles of a convolution round as what lies in them does, and part of it is beyond the halo.
   EXPECT_LT(apart(field->whole().part(around).part(inner), alone->whole().part(inner)), 1e-4);
+}
+
+ProgramFactory lost_after(int good_runs) {
+  using testing::FaultyProgram;
+  return [good_runs] {
+    return std::make_unique<FaultyProgram>(FaultyProgram::Fault::kLost, good_runs);
+  };
+}
+
+TEST(Network, ADeviceThatIsLostFails) {
+  auto network = Network::create(noise(), lost_after(1));
+  ASSERT_TRUE(network);
+  const Planes input = random_input(96, 64);
+  EXPECT_TRUE(network->see(input, everything(input)));
+  const auto lost = network->see(input, everything(input));
+  ASSERT_FALSE(lost);
+  EXPECT_EQ(lost.error().code, ErrorCode::kDeviceLost);
+  EXPECT_FALSE(network->on_spare());
+}
+
+/// Within a region of several runs too: what the device has seen and what the spare sees are one.
+TEST(Network, ASpareTakesThePlaceOfADeviceThatIsLost) {
+  const Planes small = random_input(96, 64);
+  const Planes large = random_input(20 * kBlock_px, 20 * kBlock_px);  // 400 blocks
+  auto whole = network_of(noise({16, 16, 16}));
+  for (const int good_runs : {0, 1, 2}) {
+    auto network = Network::create(noise({16, 16, 16}), lost_after(good_runs),
+                                   [] { return reference::create_program(1); });
+    ASSERT_TRUE(network);
+    for (const Planes& input : {small, large, small}) {
+      const auto got = network->see(input, everything(input));
+      const auto wanted = whole.see(input, everything(input));
+      ASSERT_TRUE(got && wanted) << good_runs;
+      EXPECT_EQ(apart(*got, *wanted), 0) << good_runs;
+    }
+    EXPECT_TRUE(network->on_spare());
+  }
 }
 
 }  // namespace

@@ -34,6 +34,12 @@ TEST(Guarded, AnArrayThatFoundNoMemoryIsTheSame) {
   EXPECT_EQ(error_of(std::bad_array_new_length()).code, ErrorCode::kOutOfMemory);
 }
 
+TEST(Guarded, AFailureIsItsErrorWordForWord) {
+  const Error error = error_of(Failure({ErrorCode::kDeviceLost, "the device went away"}));
+  EXPECT_EQ(error.code, ErrorCode::kDeviceLost);
+  EXPECT_EQ(error.message, "the device went away");
+}
+
 TEST(Guarded, AnyOtherExceptionIsADefectOfOurs) {
   for (const Error& error :
        {error_of(std::logic_error("odd")), error_of(std::runtime_error("odd"))}) {

@@ -84,6 +84,7 @@ def test_a_device_that_is_not_there():
         ({"field": True}, "field: expected one of"),
         ({"device": 0}, "device: expected a str"),
         ({"device": ""}, "Config.device"),
+        ({"field_device": "gpu"}, 'field_device: expected one of "auto", "cpu", "device"'),
         ({"weights": 7}, "weights: expected a path"),
         ({"max_width": 0, "max_height": 0}, "(?s)Config.max_width.*Config.max_height"),
         ({"device_timeout_ms": -1}, "Config.device_timeout_ms"),
@@ -107,6 +108,7 @@ def test_every_field_of_the_config_is_a_keyword():
 def test_the_defaults_can_be_given():
     given = {k: v for k, v in flowdlo.default_config().items() if "weights" not in k}
     with flowdlo.Estimator(**{**given, "device": "cpu"}) as estimator:
+        assert (estimator.device, estimator.field_device) == ("cpu", "cpu")
         with flowdlo.Estimator(device="cpu") as usual:
             assert (estimator.euler_steps, estimator.draws) == (usual.euler_steps, usual.draws)
 

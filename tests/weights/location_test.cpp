@@ -165,10 +165,10 @@ TEST(EmbeddedFiles, AreTheShippedOnesByteForByte) {
 }
 
 TEST(EmbeddedFiles, AreReadWhereTheyLie) {
-  const auto loaded = load_and_keep({"a name", shipped().model});
+  const auto loaded = keep({"a name", shipped().model});
   const auto from_file = load(FLOWDLO_DEFAULT_WEIGHTS);
   ASSERT_TRUE(loaded && from_file);
-  const auto anew = loaded->file->decoded();
+  const auto anew = loaded->decoded();
   ASSERT_EQ(anew.tensors.size(), from_file->tensors.size());
   for (std::size_t i = 0; i < anew.tensors.size(); ++i) {
     EXPECT_EQ(anew.tensors[i].values, from_file->tensors[i].values);
@@ -180,7 +180,7 @@ TEST(EmbeddedFiles, AreReadWhereTheyLie) {
 }
 
 TEST(EmbeddedFiles, ThatAreDamagedAreNamed) {
-  const auto loaded = load_and_keep({"a name", kSomeModel});
+  const auto loaded = keep({"a name", kSomeModel});
   ASSERT_FALSE(loaded);
   EXPECT_EQ(loaded.error().code, ErrorCode::kBadWeights);
   EXPECT_THAT(loaded.error().message, HasSubstr("a name"));
