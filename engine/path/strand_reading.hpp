@@ -22,7 +22,7 @@ namespace flowdlo::path {
 [[nodiscard]] Strands strands_of(const Frame& frame, const field::Axes& axes, const Region& region);
 
 /// As `trace_ropes`, of the axes that a network sees in the frame; ropes rather go on where those
-/// `guesses` do that the mask alone gave.
+/// `guesses` do that other readings of the frame gave.
 [[nodiscard]] Result<RopePaths> trace_ropes(const Frame& frame, const field::Axes& axes, int ropes,
                                             const std::vector<RopesGuess>& guesses = {});
 

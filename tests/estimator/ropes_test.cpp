@@ -11,6 +11,7 @@
 #include "estimator/parted.hpp"
 #include "estimator/rope_crossings.hpp"
 #include "estimator/rope_readings.hpp"
+#include "estimator/second_look.hpp"
 #include "estimator/rope_views.hpp"
 #include "flowdlo/estimator.hpp"
 #include "geometry/polyline.hpp"
@@ -319,15 +320,62 @@ TEST(RopeReadings, TheAxesRopesAreTakenAndTheMasksSayWhichTheyKnow) {
   for (const path::Path& rope : masked->ropes) axes.lines.push_back({rope.points_px, {1, 1}});
   auto& half = axes.lines.back().points_px;
   half.resize(half.size() / 2);
-  float asked_px = 0;
+  std::vector<float> asked_px;
   const auto read = estimator::read_ropes(scene.frame(), 0, [&](float width_px) {
-    asked_px = width_px;
+    asked_px.push_back(width_px);
     return std::optional(axes);
   });
   ASSERT_TRUE(read) << read.error().message;
-  EXPECT_EQ(asked_px, masked->rope_width_px);
+  ASSERT_EQ(asked_px.size(), 2U) << "what the mask does not know is looked at more closely";
+  EXPECT_EQ(asked_px[0], masked->rope_width_px);
+  EXPECT_FLOAT_EQ(asked_px[1], estimator::kCloser * axes.width_px);
   EXPECT_THAT(read->witness, ::testing::UnorderedElementsAre(estimator::Witness::kAgrees,
                                                              estimator::Witness::kDiffers));
+}
+
+/// The axes of what the mask's reading has.
+field::Axes axes_of(const path::RopePaths& ropes) {
+  field::Axes axes;
+  axes.width_px = ropes.rope_width_px;
+  for (const path::Path& rope : ropes.ropes) axes.lines.push_back({rope.points_px, {1, 1}});
+  return axes;
+}
+
+TEST(RopeReadings, RopesThatAreToldApartSurelyAreLookedAtOnce) {
+  const auto scene = make_ropes(RopesKind::kCrossing, 2, 0);
+  const auto masked = path::trace_ropes(scene.frame(), 0);
+  ASSERT_TRUE(masked) << masked.error().message;
+  int asked = 0;
+  const auto read = estimator::read_ropes(scene.frame(), 0, [&](float) {
+    ++asked;
+    return std::optional(axes_of(*masked));
+  });
+  ASSERT_TRUE(read) << read.error().message;
+  EXPECT_EQ(asked, 1);
+  EXPECT_THAT(read->witness, ::testing::Each(estimator::Witness::kAgrees));
+}
+
+/// Where there is no time for it, or it fails.
+TEST(RopeReadings, WithoutACloserLookTheFirstOneStands) {
+  const auto scene = make_ropes(RopesKind::kCrossing, 2, 0);
+  const auto masked = path::trace_ropes(scene.frame(), 0);
+  ASSERT_TRUE(masked) << masked.error().message;
+  field::Axes axes = axes_of(*masked);
+  auto& half = axes.lines.back().points_px;
+  half.resize(half.size() / 2);
+  int asked = 0;
+  const auto once = [&](float) {
+    return asked++ == 0 ? std::optional(axes) : std::optional<field::Axes>();
+  };
+  const auto read = estimator::read_ropes(scene.frame(), 0, once);
+  ASSERT_TRUE(read) << read.error().message;
+  EXPECT_EQ(asked, 2);
+  const auto first = path::trace_ropes(scene.frame(), axes, 0, masked->guesses);
+  ASSERT_TRUE(first);
+  ASSERT_EQ(read->paths.ropes.size(), first->ropes.size());
+  for (std::size_t i = 0; i < first->ropes.size(); ++i) {
+    EXPECT_EQ(read->paths.ropes[i].points_px, first->ropes[i].points_px);
+  }
 }
 
 TEST(RopeReadings, WhereTheAxesMakeNoRopesTheMasksAreInDoubt) {
