@@ -17,6 +17,7 @@
 #include "bench_report.hpp"
 #include "command_line.hpp"
 #include "durability_choice.hpp"
+#include "files/own_file.hpp"
 #include "files/shown_name.hpp"
 #include "files/whole_file.hpp"
 #include "flowdlo/estimator.hpp"
@@ -51,10 +52,9 @@ double since_ms(Clock::time_point start) {
 // Beside the executable: bin/flowdlo and share/flowdlo, built or installed.
 Result<fs::path> shipped_frame() {
   std::error_code failure;
-  const auto executable = fs::read_symlink("/proc/self/exe", failure);
-  const auto frame =
-      executable.parent_path().parent_path() / "share" / "flowdlo" / "frames" / "overhand_loop";
-  if (!failure && fs::is_directory(frame, failure)) return frame;
+  const auto frame = files::running_program().parent_path().parent_path() / "share" / "flowdlo" /
+                     "frames" / "overhand_loop";
+  if (fs::is_directory(frame, failure)) return frame;
   return Error{ErrorCode::kIo, fmt::format("bench: expected the frame that ships at {}, found "
                                            "none; name a frame folder: flowdlo bench FRAME",
                                            frame.string())};

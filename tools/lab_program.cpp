@@ -14,6 +14,7 @@
 
 #include "command_line.hpp"
 #include "exit_code.hpp"
+#include "files/own_file.hpp"
 #include "files/shown_name.hpp"
 #include "shell_commands.hpp"
 #include "terminal.hpp"
@@ -37,10 +38,7 @@ bool is_lab_command(const std::string& word) {
 }
 
 /// Beside the executable, built or installed.
-fs::path lab_program() {
-  std::error_code failure;
-  return fs::read_symlink("/proc/self/exe", failure).parent_path() / "flowdlo-lab";
-}
+fs::path lab_program() { return files::running_program().parent_path() / "flowdlo-lab"; }
 
 /// Everything that can be read from `end`, which is closed.
 std::string drained(int end) {

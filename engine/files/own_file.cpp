@@ -1,6 +1,7 @@
 #include "files/own_file.hpp"
 
 #include <dlfcn.h>
+#include <sys/auxv.h>
 #include <sys/stat.h>
 
 #include <system_error>
@@ -21,7 +22,16 @@ fs::path own_file(const fs::path& program) {
 
 fs::path running_program() {
   std::error_code error;
-  return fs::read_symlink("/proc/self/exe", error);
+  auto program = fs::read_symlink("/proc/self/exe", error);
+  if (!error) return program;
+  return program_that_began_as(reinterpret_cast<const char*>(::getauxval(AT_EXECFN)));
+}
+
+fs::path program_that_began_as(const char* name) {
+  if (name == nullptr) return {};
+  std::error_code error;
+  auto program = fs::canonical(name, error);
+  return error ? fs::path() : program;
 }
 
 std::vector<fs::path> folders_around(const fs::path& program) {
