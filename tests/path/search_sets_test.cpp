@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "geometry/polyline.hpp"
+
 namespace flowdlo::path {
 namespace {
 
@@ -75,6 +77,67 @@ TEST(RopeSets, RopesThatCrossGoStraightOn) {
   EXPECT_EQ(sets[0].ways[0].enters, (std::vector<int>{0, 2}));
   EXPECT_EQ(sets[0].ways[1].enters, (std::vector<int>{4, 6}));
   EXPECT_NEAR(sets[0].cost, 2 * kRope + 0.3F, 1e-4F);
+}
+
+/// Strand 0 comes from below and strand 1 goes on above, strand 2 is nearly a ring between them, to
+/// the right; all four inner ends lie together. Straight on is one rope with a loop.
+Strands rope_with_loop() {
+  Strands strands = strands_of(3);
+  const auto lay = [&](std::size_t s, const std::vector<Eigen::Vector2f>& points) {
+    strands.list[s].ends[0].point_px = points.front();
+    strands.list[s].ends[1].point_px = points.back();
+    strands.list[s].points_px = geometry::resample(points, 200);
+  };
+  lay(0, {{0, 100}, {0, 60}, {0, 10}});
+  lay(1, {{0, -10}, {0, -60}, {0, -100}});
+  lay(2, {{6, 8}, {60, 60}, {120, 0}, {60, -60}, {6, -8}});
+  for (const int inner : {1, 2, 4, 5}) {  // where no rope seems to end
+    strands.list[static_cast<std::size_t>(inner / 2)]
+        .ends[static_cast<std::size_t>(inner % 2)]
+        .end_cost = 3 * kStop;
+  }
+  return strands;
+}
+
+Bonds loop_bonds(float through, float back) {
+  Bonds bonds(6);
+  join(bonds, 1, 5, through);  // from below into the ring's upper end,
+  join(bonds, 2, 4, through);  // and from its lower one on above
+  join(bonds, 1, 2, back);     // or past it,
+  join(bonds, 4, 5, back);     // which closes
+  return bonds;
+}
+
+TEST(RopeSets, ARingThatARopeOnlyTouchesIsALoopUnlessThatCostsMuchMore) {
+  const Strands strands = rope_with_loop();
+  const float gain = kLoopEnergy + kRingEnergy;
+  const auto loop = search_sets(strands, loop_bonds(0.5F * gain + 0.9F, 1), 0, 4);
+  ASSERT_FALSE(loop.empty());
+  EXPECT_EQ(loop[0].ways.size(), 1U) << "within what a loop's ring costs";
+  const auto ring = search_sets(strands, loop_bonds(0.5F * gain + 1.1F, 1), 0, 4);
+  ASSERT_FALSE(ring.empty());
+  ASSERT_EQ(ring[0].ways.size(), 2U);
+  EXPECT_TRUE(ring[0].ways[0].closed || ring[0].ways[1].closed);
+  EXPECT_NEAR(ring[0].cost, kRope + gain + 2, 1e-4F);
+}
+
+/// The same with a rope that passes over the ring twice beside it.
+TEST(RopeSets, ARingThatSomethingCrossesIsNoLoop) {
+  Strands strands = rope_with_loop();
+  strands.list.resize(4);
+  strands.list[3].covers_px = 400;
+  const std::vector<Eigen::Vector2f> over{{60, 100}, {60, -100}};
+  strands.list[3].points_px = geometry::resample(over, 200);
+  for (const std::size_t side : {0U, 1U}) {
+    strands.list[3].ends[side].end_cost = kStop;
+    strands.list[3].ends[side].point_px = {60, side == 0 ? 100 : -100};
+  }
+  Bonds bonds = loop_bonds(3, 1);
+  bonds.resize(8);
+  const auto sets = search_sets(strands, bonds, 0, 4);
+  ASSERT_FALSE(sets.empty());
+  EXPECT_EQ(sets[0].ways.size(), 3U);
+  EXPECT_NEAR(sets[0].cost, 2 * kRope + kRingEnergy + 2, 1e-4F);
 }
 
 TEST(RopeSets, AWayThatComesBackToItsBeginningIsClosed) {
