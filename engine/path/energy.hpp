@@ -54,10 +54,11 @@ inline constexpr float kLeftOutEnergy = 2.5F;
 /// (`flowdlo-lab ropes-report`).
 inline constexpr float kRingEnergy = 1.0F;
 
-/// And more where that may be a loop of another rope (path/loops). Of 350 drawn scenes of two and
-/// three ropes without depth (`flowdlo-lab ropes-report --scenes 25 --first 7000 --most 3
-/// --photograph`) 343 are wholly right in place of 340, with 1 and 3 too, and no ring is lost.
-inline constexpr float kLoopEnergy = 2.0F;
+/// And, among several ropes, of two links that meet and do not cross (path/touches): strands that
+/// come together rather cross than touch, and what looks like a ring beside a rope is a loop of it.
+/// Chosen on drawn scenes without depth, drawn and rendered ones (docs/ropes.md): 0.25 and 2 are
+/// worse.
+inline constexpr float kTouchEnergy = 1.0F;
 
 /// How much the end of a strand of the mask looks like the rope's own, where no field says it: a
 /// tip in plain sight; one at which an occluder begins, or beyond which another strand passes. An

@@ -8,8 +8,8 @@
 #include <optional>
 #include <utility>
 
-#include "path/loops.hpp"
 #include "path/pairings.hpp"
+#include "path/touches.hpp"
 
 namespace flowdlo::path {
 namespace {
@@ -218,10 +218,8 @@ std::vector<RopeSet> search_sets(const Strands& strands,
   std::vector<RopeSet> found;
   for (RopeSet& set : ropes > 0 ? ends.sets_around(wanted) : ends.sets(0, kPairings)) {
     if (ropes > 0 && set.ways.size() != wanted) continue;
-    for (const Traversal& way : set.ways) {
-      if (!way.closed) continue;
-      set.cost += kRingEnergy + (may_be_loop(way, set, strands) ? kLoopEnergy : 0);
-    }
+    for (const Traversal& way : set.ways) set.cost += way.closed ? kRingEnergy : 0;
+    set.cost += kTouchEnergy * static_cast<float>(touches(set, strands));
     found.push_back(std::move(set));
   }
   sort_and_cut(found, count);

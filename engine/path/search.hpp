@@ -24,8 +24,8 @@ struct RopeSet {
 };
 
 /// At most `count` sets of `ropes` ways, or with 0 of any number, cheapest first; empty where there
-/// are none. A set pays for its bonds, for where its ways end, for what it leaves out, and for each
-/// closed way kRingEnergy, and kLoopEnergy where that may be a loop of another one. Every end of a
+/// are none. A set pays for its bonds, for where its ways end, for what it leaves out, for each
+/// closed way kRingEnergy, and kTouchEnergy where two bonds touch. Every end of a
 /// strand has one bond at most and every strand is either used or left out, so that a set is a
 /// pairing of ends (`cheapest_pairings`): exact for any number of ropes as long as that is. A
 /// number that is asked for comes from the price of one more rope at which it is the cheapest one;

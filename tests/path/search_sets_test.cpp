@@ -108,36 +108,43 @@ Bonds loop_bonds(float through, float back) {
   return bonds;
 }
 
-TEST(RopeSets, ARingThatARopeOnlyTouchesIsALoopUnlessThatCostsMuchMore) {
+TEST(RopeSets, ARingThatARopeTouchesIsALoopUnlessThatCostsMuchMore) {
   const Strands strands = rope_with_loop();
-  const float gain = kLoopEnergy + kRingEnergy;
-  const auto loop = search_sets(strands, loop_bonds(0.5F * gain + 0.9F, 1), 0, 4);
+  const float gain = kTouchEnergy + kRingEnergy;
+  const auto loop = search_sets(strands, loop_bonds(1 + 0.5F * gain - 0.1F, 1), 0, 4);
   ASSERT_FALSE(loop.empty());
-  EXPECT_EQ(loop[0].ways.size(), 1U) << "within what a loop's ring costs";
-  const auto ring = search_sets(strands, loop_bonds(0.5F * gain + 1.1F, 1), 0, 4);
+  EXPECT_EQ(loop[0].ways.size(), 1U) << "within what a ring that is touched costs";
+  const auto ring = search_sets(strands, loop_bonds(1 + 0.5F * gain + 0.1F, 1), 0, 4);
   ASSERT_FALSE(ring.empty());
   ASSERT_EQ(ring[0].ways.size(), 2U);
   EXPECT_TRUE(ring[0].ways[0].closed || ring[0].ways[1].closed);
   EXPECT_NEAR(ring[0].cost, kRope + gain + 2, 1e-4F);
 }
 
-/// The same with a rope that passes over the ring twice beside it.
-TEST(RopeSets, ARingThatSomethingCrossesIsNoLoop) {
-  Strands strands = rope_with_loop();
-  strands.list.resize(4);
-  strands.list[3].covers_px = 400;
-  const std::vector<Eigen::Vector2f> over{{60, 100}, {60, -100}};
-  strands.list[3].points_px = geometry::resample(over, 200);
-  for (const std::size_t side : {0U, 1U}) {
-    strands.list[3].ends[side].end_cost = kStop;
-    strands.list[3].ends[side].point_px = {60, side == 0 ? 100 : -100};
+/// Four strands that come together from all sides: 0 and 1 from left and right, 2 and 3 from below
+/// and above.
+TEST(RopeSets, StrandsThatComeTogetherRatherCrossThanTouch) {
+  Strands strands = strands_of(4);
+  const std::vector<Eigen::Vector2f> inner{{-6, 0}, {6, 0}, {0, 6}, {0, -6}};
+  for (std::size_t s = 0; s < 4; ++s) {
+    strands.list[s].ends[0].point_px = 20 * inner[s];
+    strands.list[s].ends[1].point_px = inner[s];
   }
-  Bonds bonds = loop_bonds(3, 1);
-  bonds.resize(8);
-  const auto sets = search_sets(strands, bonds, 0, 4);
-  ASSERT_FALSE(sets.empty());
-  EXPECT_EQ(sets[0].ways.size(), 3U);
-  EXPECT_NEAR(sets[0].cost, 2 * kRope + kRingEnergy + 2, 1e-4F);
+  const auto by = [&](float through, float aside) {
+    Bonds bonds(8);
+    join(bonds, 1, 3, through);
+    join(bonds, 5, 7, through);
+    for (const int a : {1, 3}) {
+      for (const int b : {5, 7}) join(bonds, a, b, aside);
+    }
+    return search_sets(strands, bonds, 2, 4).at(0);
+  };
+  const RopeSet crossing = by(1 + 0.5F * kTouchEnergy - 0.1F, 1);
+  EXPECT_EQ(crossing.ways[0].enters, (std::vector<int>{0, 3}));
+  EXPECT_NEAR(crossing.cost, 2 * kRope + 2 + kTouchEnergy - 0.2F, 1e-4F);
+  const RopeSet touching = by(1 + 0.5F * kTouchEnergy + 0.1F, 1);
+  EXPECT_NE(touching.ways[0].enters, (std::vector<int>{0, 3}));
+  EXPECT_NEAR(touching.cost, 2 * kRope + 2 + kTouchEnergy, 1e-4F);
 }
 
 TEST(RopeSets, AWayThatComesBackToItsBeginningIsClosed) {
