@@ -84,20 +84,21 @@ Percentiles percentiles_of(std::vector<double> values) {
 }
 
 std::string bench_json(const BenchReport& report) {
-  Json json = {{"version", FLOWDLO_VERSION},
-               {"frame", report.frame},
-               {"width", report.width},
-               {"height", report.height},
-               {"device", report.device},
-               {"field_device", report.field_device},
-               {"threads", report.threads},
-               {"draws", report.draws},
-               {"steps", report.steps},
-               {"frames", report.timings.size()},
-               {"without_estimate", report.without_estimate},
-               {"create_ms", rounded(report.create_ms)},
-               {"first_ms", rounded(report.first_ms)},
-               {"total_ms", json_of(percentiles_of_stage(report, &Timings::total_ms))}};
+  Json json = {
+      {"version", FLOWDLO_VERSION},
+      {"frame", report.frame},
+      {"width", report.width},
+      {"height", report.height},
+      {"device", report.device},
+      {"field_device", report.field_device.empty() ? Json(nullptr) : Json(report.field_device)},
+      {"threads", report.threads},
+      {"draws", report.draws},
+      {"steps", report.steps},
+      {"frames", report.timings.size()},
+      {"without_estimate", report.without_estimate},
+      {"create_ms", rounded(report.create_ms)},
+      {"first_ms", rounded(report.first_ms)},
+      {"total_ms", json_of(percentiles_of_stage(report, &Timings::total_ms))}};
   for (const auto& stage : kStages) {
     json["stages_ms"][stage.name] = json_of(percentiles_of_stage(report, stage.time_ms));
   }

@@ -1,6 +1,5 @@
 #include "estimator/conditions.hpp"
 
-#include <new>
 #include <utility>
 
 #include "estimator/stopwatch.hpp"
@@ -46,8 +45,7 @@ Result<bool> read_seen(const Frame& frame, const ReadConfig& config, const SeeAx
       paths ? lift(*std::move(paths), frame, config, conditions) : Result<void>(paths.error());
   stage.lap(timings.prior_ms);
   if (!lifted) {
-    // A reading that is left out for want of memory would make the frame's estimate another one.
-    if (lifted.error().code == ErrorCode::kOutOfMemory) throw std::bad_alloc();
+    throw_what_ends_a_frame(lifted.error());
     return false;
   }
   axes->view = {};  // of a large mask many megabytes, and the lines are enough from here on

@@ -19,8 +19,6 @@
 namespace flowdlo::estimator {
 namespace {
 
-constexpr const char* kAuto = "auto";
-
 #ifdef FLOWDLO_WITH_VULKAN
 
 bool is_real_gpu(const DeviceReport& report) {
@@ -171,7 +169,7 @@ DeviceSurvey surveyed(bool self_test, bool probe) {
     report.self_test_passed = verdict.passed;
     report.self_test = verdict.text;
   }
-  survey.auto_choice = "cpu";
+  survey.auto_choice = estimator::kCpu;
   for (const DeviceReport& report : estimator::real_gpus(survey.vulkan)) {
     if (report.self_test_run && !report.self_test_passed) continue;
     survey.auto_choice = report.name;
@@ -182,7 +180,7 @@ DeviceSurvey surveyed(bool self_test, bool probe) {
   (void)probe;
   survey.loader = "none";
   survey.advice = "this library was built without Vulkan; build it with FLOWDLO_WITH_VULKAN=ON";
-  survey.auto_choice = "cpu";
+  survey.auto_choice = estimator::kCpu;
 #endif
   return survey;
 }
@@ -198,7 +196,7 @@ DeviceSurvey survey_devices(bool self_test, bool probe) {
             .vulkan = {},
             .loader = guard::caught("survey_devices").message,
             .advice = {},
-            .auto_choice = "cpu"};  // needs no Vulkan, and no memory to be said
+            .auto_choice = estimator::kCpu};  // needs no Vulkan, and no memory to be said
   }
 }
 

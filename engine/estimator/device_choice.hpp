@@ -19,7 +19,8 @@ namespace flowdlo::estimator {
 /// A frame in buffers of the host's device as one in memory, good until the next.
 using Fetch = std::function<Result<Frame>(const VulkanFrame&)>;
 
-inline constexpr const char* kCpu = "cpu";  ///< the native back end's name
+inline constexpr const char* kAuto = "auto";  ///< Config::device, where it is left to us
+inline constexpr const char* kCpu = "cpu";    ///< the native back end's name
 
 struct BackEnd {
   std::string name;  ///< kCpu, or the Vulkan device's name

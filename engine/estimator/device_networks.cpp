@@ -1,7 +1,5 @@
 #include "estimator/device_networks.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 
 #include "estimator/field_trial.hpp"
@@ -12,7 +10,7 @@ namespace {
 
 /// Whether the CPU takes the place of a device that failed so. Without memory it would fail too.
 bool replaceable(const Config& config, const std::string& device, const Error& error) {
-  return config.device == "auto" && device != kCpu && error.code != ErrorCode::kOutOfMemory;
+  return config.device == kAuto && device != kCpu && error.code != ErrorCode::kOutOfMemory;
 }
 
 /// The field's network, and where it runs.
@@ -35,23 +33,20 @@ Result<PlacedField> placed_field(const Wanted& wanted, const BackEnd& back_end) 
   const bool tried = config.field_device == FieldDevice::kFaster && back_end.gpu;
   if (back_end.name == kCpu || !(asked || tried)) return field_on_cpu(wanted);
 
-  const auto spare =
-      config.device == "auto" ? cpu_back_end(config.threads).make_program : field::ProgramFactory();
-  auto network = field::Network::create(wanted.field, back_end.make_program, spare);
+  auto network = field::Network::create(wanted.field, back_end.make_program);
   if (!network) return network.error();
   PlacedField there{*std::move(network), back_end.name};
-  if (asked) return there;
-  auto here = field_on_cpu(wanted);
-  if (!here) return here.error();
-  const auto trial = try_field(there.network, here->network);
-  if (!trial) return trial.error();
-  if (there.network.on_spare()) {
-    return Error{ErrorCode::kDeviceLost,
-                 fmt::format("\"{}\": expected the strand field's network to run, got a failure; "
-                             "create anew, perhaps on the CPU",
-                             back_end.name)};
+  if (tried) {
+    auto here = field_on_cpu(wanted);
+    if (!here) return here.error();
+    const auto trial = try_field(there.network, here->network);
+    if (!trial) return trial.error();
+    if (!trial->agrees() || !trial->device_is_faster()) return here;
   }
-  return trial->agrees() && trial->device_is_faster() ? std::move(there) : *std::move(here);
+  if (config.device == kAuto) {
+    there.network.fall_back_on(cpu_back_end(config.threads).make_program);
+  }
+  return there;
 }
 
 flow::Sampler later_on(const Wanted& wanted, const BackEnd& back_end) {

@@ -14,6 +14,7 @@
 #include "geometry/pixel.hpp"
 #include "geometry/polyline.hpp"
 #include "geometry/quantile.hpp"
+#include "geometry/segments.hpp"
 #include "image/distance.hpp"
 #include "image/line.hpp"
 #include "image/masks.hpp"
@@ -75,9 +76,6 @@ struct Meeting {
 
 std::vector<Meeting> meetings(const Path& a, const Path& b) {
   std::vector<Meeting> result;
-  const auto side = [](const Vector2f& p, const Vector2f& q) {
-    return p.x() * q.y() - p.y() * q.x();
-  };
   const auto chord = [](const Path& path, std::size_t i) {
     return Vector2f(path.points_px[std::min(i + kChordPoints, path.points_px.size() - 1)] -
                     path.points_px[i]);
@@ -88,12 +86,8 @@ std::vector<Meeting> meetings(const Path& a, const Path& b) {
       const Vector2f between = b.points_px[j] - a.points_px[i];
       const Vector2f e = chord(b, j);
       if (between.squaredNorm() > 4 * (d.squaredNorm() + e.squaredNorm())) continue;
-      const float cross = side(d, e);
-      if (std::abs(cross) < 1e-6F) continue;
-      const float t = side(between, e) / cross;
-      const float s = side(between, d) / cross;
-      if (t < 0 || t >= 1 || s < 0 || s >= 1) continue;
-      result.push_back({{i, j}, std::abs(cross) / (d.norm() * e.norm())});
+      if (!geometry::meeting(a.points_px[i], d, b.points_px[j], e)) continue;
+      result.push_back({{i, j}, std::abs(geometry::cross(d, e)) / (d.norm() * e.norm())});
     }
   }
   return result;

@@ -9,6 +9,8 @@
 #include <tuple>
 #include <utility>
 
+#include "geometry/segments.hpp"
+
 namespace flowdlo::estimator {
 namespace {
 
@@ -49,21 +51,16 @@ struct Met {
 
 std::vector<Met> met(const Line& a, const Line& b, bool same, bool closed) {
   std::vector<Met> result;
-  const auto side = [](const Vector2d& p, const Vector2d& q) {
-    return p.x() * q.y() - p.y() * q.x();
-  };
   const std::size_t count = a.nodes.size() - 1;
   for (std::size_t i = 0; i < count; ++i) {
     const Vector2d d = a.pixels[i + 1] - a.pixels[i];
     for (std::size_t j = same ? i + kApart : 0; j + 1 < b.nodes.size(); ++j) {
       if (same && closed && i + count - j < kApart) continue;
       const Vector2d e = b.pixels[j + 1] - b.pixels[j];
-      const Vector2d between = b.pixels[j] - a.pixels[i];
-      const double cross = side(d, e);
-      if (std::abs(cross) < 1e-9) continue;
-      const double t = side(between, e) / cross;
-      const double s = side(between, d) / cross;
-      if (t < 0 || t >= 1 || s < 0 || s >= 1) continue;
+      const auto meeting = geometry::meeting(a.pixels[i], d, b.pixels[j], e);
+      if (!meeting) continue;
+      const double t = (*meeting)[0];
+      const double s = (*meeting)[1];
       const auto mixed = [](const auto& list, std::size_t k, double share) {
         return (1 - share) * list[k] + share * list[k + 1];
       };

@@ -123,8 +123,8 @@ Result<void> Network::build(int capacity) {
 }
 
 Result<Network> Network::create(std::shared_ptr<const weights::FieldWeights> weights,
-                                ProgramFactory make_program, ProgramFactory spare) {
-  Network network(std::move(weights), std::move(make_program), std::move(spare));
+                                ProgramFactory make_program) {
+  Network network(std::move(weights), std::move(make_program));
   if (auto built = network.build(kFirstCapacity); !built) return built.error();
   return network;
 }

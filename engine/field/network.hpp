@@ -23,12 +23,13 @@ inline constexpr int kMostBlocks = 256;
 
 class Network {
  public:
-  /// Builds a program for a few blocks; a region of more makes it grow once. `spare`, where given,
-  /// makes the programs from the first failure of a later one on, but for want of memory. Fails as
+  /// Builds a program for a few blocks; a region of more makes it grow once. Fails as
   /// ops::Program::build does.
   [[nodiscard]] static Result<Network> create(std::shared_ptr<const weights::FieldWeights> weights,
-                                              ProgramFactory make_program,
-                                              ProgramFactory spare = {});
+                                              ProgramFactory make_program);
+
+  /// From the first failure on, but for want of memory, programs are the spare's.
+  void fall_back_on(ProgramFactory spare) { spare_ = std::move(spare); }
 
   /// Whether a program has failed and the spare makes them now.
   [[nodiscard]] bool on_spare() const { return on_spare_; }
@@ -50,11 +51,8 @@ class Network {
   }
 
  private:
-  Network(std::shared_ptr<const weights::FieldWeights> weights, ProgramFactory make_program,
-          ProgramFactory spare)
-      : weights_(std::move(weights)),
-        make_program_(std::move(make_program)),
-        spare_(std::move(spare)) {}
+  Network(std::shared_ptr<const weights::FieldWeights> weights, ProgramFactory make_program)
+      : weights_(std::move(weights)), make_program_(std::move(make_program)) {}
 
   [[nodiscard]] Result<void> build(int capacity);
   /// What is looked at: all blocks, and what they are given and say.

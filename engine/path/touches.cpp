@@ -6,6 +6,8 @@
 #include <cstddef>
 #include <vector>
 
+#include "geometry/segments.hpp"
+
 namespace flowdlo::path {
 namespace {
 
@@ -46,15 +48,8 @@ bool on_two_levels(const Step& a, const Step& b) {
   return std::abs(a.depth_m - b.depth_m) > kLevelShare * std::min(a.depth_m, b.depth_m);
 }
 
-/// Above 0 on one side of the line through a step, below on the other.
-float side_of(const Step& step, const Vector2f& p) {
-  const Vector2f along = step.to - step.from;
-  const Vector2f off = p - step.from;
-  return along.x() * off.y() - along.y() * off.x();
-}
-
 bool cross(const Step& a, const Step& b) {
-  return side_of(a, b.from) * side_of(a, b.to) < 0 && side_of(b, a.from) * side_of(b, a.to) < 0;
+  return geometry::meeting<float>(a.from, a.to - a.from, b.from, b.to - b.from).has_value();
 }
 
 }  // namespace

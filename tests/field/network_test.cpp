@@ -249,9 +249,9 @@ TEST(Network, ASpareTakesThePlaceOfADeviceThatIsLost) {
   const Planes large = random_input(20 * kBlock_px, 20 * kBlock_px);  // 400 blocks
   auto whole = network_of(noise({16, 16, 16}));
   for (const int good_runs : {0, 1, 2}) {
-    auto network = Network::create(noise({16, 16, 16}), lost_after(good_runs),
-                                   [] { return reference::create_program(1); });
+    auto network = Network::create(noise({16, 16, 16}), lost_after(good_runs));
     ASSERT_TRUE(network);
+    network->fall_back_on([] { return reference::create_program(1); });
     for (const Planes& input : {small, large, small}) {
       const auto got = network->see(input, everything(input));
       const auto wanted = whole.see(input, everything(input));

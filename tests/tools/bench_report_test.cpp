@@ -43,6 +43,11 @@ TEST(Percentiles, OfOneValueAreThatValueAndOfNoneZero) {
 TEST(BenchReport, JsonHasTheFieldsOfTheContract) {
   const auto json = Json::parse(bench_json(three_frames()));
   EXPECT_EQ(json["device"], "cpu");
+  EXPECT_TRUE(json["field_device"].is_null()) << "there is no strand field";
+  BenchReport elsewhere = three_frames();
+  elsewhere.field_device = "a GPU";
+  EXPECT_EQ(Json::parse(bench_json(elsewhere))["field_device"], "a GPU");
+  EXPECT_NE(bench_table(elsewhere).find("strand field on a GPU"), std::string::npos);
   EXPECT_EQ(json["threads"], 2);
   EXPECT_DOUBLE_EQ(json["create_ms"], 12.5);
   EXPECT_TRUE(json["first_ms"].is_number());

@@ -25,6 +25,11 @@ TEST(EstimateJson, HasTheFieldsOfTheContract) {
   EXPECT_EQ(json["source"], "prediction");
   EXPECT_EQ(json["draw"], 1);
   EXPECT_EQ(json["device"], "cpu");
+  EXPECT_TRUE(json["field_device"].is_null()) << "there is no strand field";
+  Provenance with_field = kProvenance;
+  with_field.field_device = "a GPU";
+  EXPECT_EQ(Json::parse(estimate_json(test::sample_estimate(), with_field))["field_device"],
+            "a GPU");
   EXPECT_EQ(json["frame"], "rope");
   EXPECT_EQ(json["seed"].get<std::uint64_t>(), kProvenance.seed);
   EXPECT_EQ(json["draws"].size(), 2U);
