@@ -37,6 +37,25 @@ const float kResidualLimit = 0.2;    // m, Eq. (3.16)
 const float kResidualNear = 0.05;    // m, Sec. 3.4, below Eq. (3.16)
 const float kResidualFar = 0.5;
 
+// a / b to the last bit, as the twin has it. Vulkan's own division may be off by 2.5 units in the last
+// place: of a pixel far to the right that is a share of a texel, times whatever the field does there.
+float quotient(float a, float b) {
+  precise float q = a / b;
+  precise float q_wide = 4097.0 * q;  // q and b as two halves each, whose products are exact
+  precise float q_high = q_wide - (q_wide - q);
+  precise float q_low = q - q_high;
+  precise float b_wide = 4097.0 * b;
+  precise float b_high = b_wide - (b_wide - b);
+  precise float b_low = b - b_high;
+  precise float back = q * b;
+  precise float lost = ((q_high * b_high - back) + q_high * b_low + q_low * b_high) + q_low * b_low;
+  precise float rest = (a - back) - lost;
+  precise float nearest = q + rest / b;
+  return nearest;
+}
+
+vec2 quotient(vec2 a, vec2 b) { return vec2(quotient(a.x, b.x), quotient(a.y, b.y)); }
+
 vec4 field_at(int line, int column, int width) {
   int index = clamp(line * width + column, 0, push.field_texels - 1);
   if (field_is_texels != 0) return texelFetch(field_texels, index);
@@ -71,16 +90,19 @@ vec2 depth_residual(vec2 u, vec2 image, float z) {
 void main() {
   int row = min(int(gl_GlobalInvocationID.x), textureSize(state) - 1);
   vec4 mean_scale = texelFetch(norm, 0);
-  vec3 node = mean_scale.w * texelFetch(state, row).xyz + mean_scale.xyz;  // Eq. (3.10)
+  precise vec3 node = mean_scale.w * texelFetch(state, row).xyz + mean_scale.xyz;  // Eq. (3.10)
   bool in_front = node.z > kNearestDepth;
   float z = in_front ? node.z : 1.0;
 
   vec4 camera = texelFetch(params, 0);  // fx, fy, cx, cy
   vec4 sizes = texelFetch(params, 1);   // width, height, field_width, field_height
-  vec2 u = camera.xy * node.xy / z + camera.zw;
+  precise vec2 scaled = camera.xy * node.xy;
+  precise vec2 u = quotient(scaled, vec2(z)) + camera.zw;
   bool inside = u.x > -0.5 && u.x < sizes.x - 0.5 && u.y > -0.5 && u.y < sizes.y - 0.5;
 
-  vec4 read = bilinear((u + 0.5) * sizes.zw / sizes.xy - 0.5, sizes.zw);
+  precise vec2 shifted = (u + 0.5) * sizes.zw;
+  precise vec2 place = quotient(shifted, sizes.xy) - 0.5;
+  vec4 read = bilinear(place, sizes.zw);
   float to_feature = kFeatureWidth / sizes.z / kFeatureScale;
   vec2 displacement = clamp(read.zw * to_feature, -kFeatureLimit, kFeatureLimit);
   float away = min(sqrt(read.z * read.z + read.w * read.w) * to_feature, kFeatureLimit);

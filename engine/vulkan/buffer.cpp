@@ -88,8 +88,6 @@ Result<Buffer> Buffer::create(const Device& device, VkDeviceSize bytes, VkBuffer
                    fmt::format("vkBindBufferMemory({})", name));
   if (!bound) return bound.error();
 
-  const VkMemoryPropertyFlags has = device.facts().memory.memoryTypes[*type].propertyFlags;
-  result.coherent_ = (has & VK_MEMORY_PROPERTY_HOST_COHERENT_BIT) != 0;
   const bool for_host = (*wishes.begin() & VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT) != 0;
   if (!for_host) return result;
   void* address = nullptr;
@@ -98,6 +96,8 @@ Result<Buffer> Buffer::create(const Device& device, VkDeviceSize bytes, VkBuffer
                    fmt::format("vkMapMemory({})", name));
   if (!mapped) return mapped.error();
   result.mapped_ = static_cast<std::byte*>(address);
+  const VkMemoryPropertyFlags has = device.facts().memory.memoryTypes[*type].propertyFlags;
+  result.coherent_ = (has & VK_MEMORY_PROPERTY_HOST_COHERENT_BIT) != 0;
   return result;
 }
 

@@ -34,7 +34,7 @@ class Buffer {
   Owned<VkBuffer> buffer_;
   VkDeviceSize size_ = 0;
   std::byte* mapped_ = nullptr;
-  bool coherent_ = true;
+  bool coherent_ = true;  ///< or out of the host's sight: there is nothing to flush
 };
 
 }  // namespace flowdlo::vulkan

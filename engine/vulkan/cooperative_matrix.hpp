@@ -9,6 +9,7 @@
 namespace flowdlo::vulkan {
 
 inline constexpr const char* kCooperativeMatrixExtension = "VK_KHR_cooperative_matrix";
+inline constexpr std::uint32_t kCooperativeMatrixVersion = VK_MAKE_API_VERSION(0, 1, 3, 255);
 inline constexpr auto kCooperativeMatrixFeaturesType = static_cast<VkStructureType>(1000506000);
 inline constexpr auto kCooperativeMatrixPropertiesType = static_cast<VkStructureType>(1000506001);
 

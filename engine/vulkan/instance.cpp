@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <exception>
+#include <optional>
 #include <string_view>
 
 #include "vulkan/absence.hpp"
@@ -13,16 +14,18 @@ namespace {
 constexpr const char* kValidationLayer = "VK_LAYER_KHRONOS_validation";
 constexpr std::string_view kNoDeviceYet = "instance";
 
-bool has_validation_layer(const Loader& loader) {
+/// The version of Vulkan that the validation layer was made for.
+std::optional<std::uint32_t> validation_layer(const Loader& loader) {
   const auto enumerate = reinterpret_cast<PFN_vkEnumerateInstanceLayerProperties>(
       loader.find(VK_NULL_HANDLE, "vkEnumerateInstanceLayerProperties"));
   std::uint32_t count = 0;
-  if (enumerate == nullptr || enumerate(&count, nullptr) != VK_SUCCESS) return false;
+  if (enumerate == nullptr || enumerate(&count, nullptr) != VK_SUCCESS) return std::nullopt;
   std::vector<VkLayerProperties> layers(count);
-  if (enumerate(&count, layers.data()) < VK_SUCCESS) return false;
-  return std::any_of(layers.begin(), layers.end(), [](const VkLayerProperties& layer) {
+  if (enumerate(&count, layers.data()) < VK_SUCCESS) return std::nullopt;
+  const auto found = std::find_if(layers.begin(), layers.end(), [](const auto& layer) {
     return std::string_view(layer.layerName) == kValidationLayer;
   });
+  return found == layers.end() ? std::nullopt : std::optional(found->specVersion);
 }
 
 /// Whether devices of which only a subset of Vulkan is there (MoltenVK's) must be asked for.
@@ -98,7 +101,8 @@ Instance::~Instance() {
 
 Result<std::unique_ptr<Instance>> Instance::create(std::shared_ptr<const Loader> loader,
                                                    bool validation) {
-  const bool layered = validation && has_validation_layer(*loader);
+  const auto layer = validation ? validation_layer(*loader) : std::nullopt;
+  const bool layered = layer.has_value();
   std::vector<const char*> extensions;
   if (layered) {
     extensions = {VK_EXT_DEBUG_UTILS_EXTENSION_NAME, VK_EXT_VALIDATION_FEATURES_EXTENSION_NAME};
@@ -145,6 +149,7 @@ Result<std::unique_ptr<Instance>> Instance::create(std::shared_ptr<const Loader>
   const auto loaded = instance->load_functions(layered);
   if (!loaded) return loaded.error();
   if (layered) {
+    instance->layer_version_ = *layer;
     const auto heard = instance->listen();
     if (!heard) return heard.error();
   }

@@ -1,6 +1,7 @@
 // Instance: one VkInstance with its function table, and what the validation layers said.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -46,6 +47,9 @@ class Instance {
   [[nodiscard]] const Loader& loader() const { return *loader_; }
   [[nodiscard]] const MessageLog& log() const { return *log_; }
   [[nodiscard]] bool validates() const { return messenger_ != VK_NULL_HANDLE; }
+  /// Whether nothing looks on that would not know what Vulkan `version` brought: a validation layer
+  /// takes structures that are younger than itself for faults.
+  [[nodiscard]] bool may_use(std::uint32_t version) const { return version <= layer_version_; }
 
   Instance(const Instance&) = delete;
   Instance& operator=(const Instance&) = delete;
@@ -60,6 +64,7 @@ class Instance {
   std::shared_ptr<const Loader> loader_;
   VkInstance handle_ = VK_NULL_HANDLE;
   bool owned_ = true;
+  std::uint32_t layer_version_ = UINT32_MAX;  // where one is loaded
   InstanceTable api_;
   VkDebugUtilsMessengerEXT messenger_ = VK_NULL_HANDLE;
   std::unique_ptr<MessageLog> log_ = std::make_unique<MessageLog>();

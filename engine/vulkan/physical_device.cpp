@@ -131,6 +131,7 @@ bool multiplies_halves(const CooperativeMatrixProperties& matrix, std::uint32_t 
 
 /// Cooperative matrices, and what their shader needs beside them.
 void look_for_matrices(const Instance& instance, PhysicalDevice& device) {
+  if (!instance.may_use(kCooperativeMatrixVersion)) return;
   const InstanceTable& api = instance.api();
   for (const char* const extension : kMatrixExtensions) {
     if (!has_extension(api, device.handle, extension)) return;

@@ -61,6 +61,7 @@ const std::vector<Small>& small_devices() {
       {"128 lanes, no shuffles",
        {.shuffles = false, .size_control = false, .subgroup_size = 128},
        {"tile"}},
+      {"memory of its own, as a card in a slot", {.memory_apart = true}, {}},
       {"shuffles and 16 KB, as a small Mali",
        {.size_control = false,
         .shared_bytes = 16384,

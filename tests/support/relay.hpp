@@ -23,6 +23,8 @@ struct RelayLimits {
   bool portability = false;       ///< has VK_KHR_portability_subset, and insists on it
   std::uint32_t least_lanes = 0;  ///< of a subgroup, where its size may be chosen
   std::uint32_t most_lanes = 0;
+  bool memory_apart = false;  ///< a memory of its own that no host sees, and a host's that is not
+                              ///< coherent
 };
 
 struct RelayTable {

@@ -233,6 +233,36 @@ VKAPI_ATTR void VKAPI_CALL format_properties(VkPhysicalDevice device, VkFormat f
       ~static_cast<VkFormatFeatureFlags>(VK_FORMAT_FEATURE_UNIFORM_TEXEL_BUFFER_BIT);
 }
 
+using Memory =
+    Relayed<k_vkGetPhysicalDeviceMemoryProperties, PFN_vkGetPhysicalDeviceMemoryProperties>;
+using Requirements = Relayed<k_vkGetBufferMemoryRequirements, PFN_vkGetBufferMemoryRequirements>;
+using Allocate = Relayed<k_vkAllocateMemory, PFN_vkAllocateMemory>;
+
+constexpr std::uint32_t kTheirMemory = 0;  // the one type that lavapipe has
+
+VKAPI_ATTR void VKAPI_CALL memory(VkPhysicalDevice device, VkPhysicalDeviceMemoryProperties* out) {
+  Memory::next(device, out);
+  if (!state().limits.memory_apart) return;
+  out->memoryTypeCount = 2;
+  out->memoryTypes[0] = {VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT, 0};
+  out->memoryTypes[1] = {VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_CACHED_BIT,
+                         0};
+}
+
+VKAPI_ATTR void VKAPI_CALL requirements(VkDevice device, VkBuffer buffer,
+                                        VkMemoryRequirements* out) {
+  Requirements::call(device, buffer, out);
+  if (state().limits.memory_apart) out->memoryTypeBits = 0b11;
+}
+
+VKAPI_ATTR VkResult VKAPI_CALL allocate(VkDevice device, const VkMemoryAllocateInfo* info,
+                                        const VkAllocationCallbacks* allocation,
+                                        VkDeviceMemory* out) {
+  VkMemoryAllocateInfo theirs = *info;
+  if (state().limits.memory_apart) theirs.memoryTypeIndex = kTheirMemory;
+  return Allocate::call(device, &theirs, allocation, out);
+}
+
 using Extensions =
     Relayed<k_vkEnumerateDeviceExtensionProperties, PFN_vkEnumerateDeviceExtensionProperties>;
 using CreateDevice = Relayed<k_vkCreateDevice, PFN_vkCreateDevice>;
@@ -309,6 +339,11 @@ PFN_vkVoidFunction relayed(std::string_view name, PFN_vkVoidFunction theirs) {
   if (name == "vkGetPhysicalDeviceFormatProperties") {
     return put_between<FormatProperties>(theirs, &format_properties);
   }
+  if (name == "vkGetPhysicalDeviceMemoryProperties") return put_between<Memory>(theirs, &memory);
+  if (name == "vkGetBufferMemoryRequirements") {
+    return put_between<Requirements>(theirs, &requirements);
+  }
+  if (name == "vkAllocateMemory") return put_between<Allocate>(theirs, &allocate);
   if (name == "vkEnumerateDeviceExtensionProperties") {
     return put_between<Extensions>(theirs, &extensions);
   }
