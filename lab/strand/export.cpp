@@ -122,10 +122,11 @@ weights::FieldWeights exported(const State& state, const std::string& notes) {
   const NetworkConfig& config = state.recipe.network;
   weights::FieldWeights weights;
   weights.name = state.recipe.name;
+  const DataConfig& data = state.recipe.data;
   weights.training_data = fmt::format(
-      "flowdlo synth, training part, seed {}, {} scenes, of which "
-      "{:.0f} % several and the rest wide",
-      state.recipe.data.seed, state.recipe.data.scenes, 100 * state.recipe.data.several);
+      "flowdlo synth, training part, seed {}, {} scenes: {:.0f} % drawn, of the others {:.0f} % "
+      "several and the rest wide",
+      data.seed, data.scenes, 100 * data.drawn, 100 * data.several);
   weights.notes = notes;
   weights.sizes = {config.fine, config.middle, config.coarse};
   Exporter exporter(weights.tensors);

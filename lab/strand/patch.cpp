@@ -1,8 +1,11 @@
 #include "strand/patch.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
+
+#include "synth/drawn_frame.hpp"
 
 namespace flowdlo::strand {
 namespace {
@@ -275,6 +278,24 @@ Patch Cutter::cut(const synth::SyntheticFrame& frame, const synth::Window& windo
   return patch;
 }
 
+/// Of the kinds of several ropes all but those that the image ends before: their curves are known
+/// inside it alone, and would show ends that are none.
+synth::SyntheticFrame drawn_training_frame(std::uint64_t seed, std::uint64_t index) {
+  constexpr std::array kSeveral{lab::RopesKind::kCrossing, lab::RopesKind::kColored,
+                                lab::RopesKind::kHanging,  lab::RopesKind::kTouching,
+                                lab::RopesKind::kRings,    lab::RopesKind::kGaps};
+  const std::uint64_t number = index / 2;
+  if (index % 2 == 0) {
+    return synth::drawn_frame(static_cast<lab::Kind>(number % lab::kKinds),
+                              synth::drawn_seed(synth::Part::kTraining, seed, number), true);
+  }
+  // Reports have the small seeds.
+  const std::uint64_t ropes_seed = synth::drawn_seed(synth::Part::kTraining, seed + 1, number);
+  return synth::drawn_ropes_frame(kSeveral[number % kSeveral.size()],
+                                  2 + static_cast<int>(number / kSeveral.size() % 4), ropes_seed,
+                                  true);
+}
+
 }  // namespace
 
 std::vector<Strand> strands_of(const synth::SyntheticFrame& frame) {
@@ -296,6 +317,14 @@ Result<std::vector<Patch>> patches_of(synth::Split split, synth::Part part, std:
   const auto frame = synth::make_frame(split, part, seed, index, render);
   if (!frame) return frame.error();
   return cutter.cut(*frame);
+}
+
+std::vector<Patch> drawn_patches_of(std::uint64_t seed, std::uint64_t index,
+                                    const PatchConfig& config) {
+  Cutter cutter(config, seed, index);
+  const auto frame = drawn_training_frame(seed, index);
+  cutter.choose(frame);
+  return cutter.cut(frame);
 }
 
 }  // namespace flowdlo::strand

@@ -64,6 +64,11 @@ struct PatchConfig {
                                                     const PatchConfig& config = {},
                                                     bool matched = false);
 
+/// Patches of a plain drawn frame of the training part: of every other one's single rope, of the
+/// others' two to five. Deterministic.
+[[nodiscard]] std::vector<Patch> drawn_patches_of(std::uint64_t seed, std::uint64_t index,
+                                                  const PatchConfig& config = {});
+
 /// The strands of a whole frame in its own pixels, for measures on frames.
 [[nodiscard]] std::vector<Strand> strands_of(const synth::SyntheticFrame& frame);
 

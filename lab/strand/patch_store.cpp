@@ -57,11 +57,18 @@ std::optional<Patch> get(survey::Unpacker& from) {
   return whole ? std::optional(std::move(patch)) : std::nullopt;
 }
 
-Result<std::vector<survey::Bytes>> packed_patches(const DataConfig& config, std::uint64_t scene) {
+Result<std::vector<Patch>> patches_of(const DataConfig& config, std::uint64_t scene) {
+  if (synth::evenly_spread(config.drawn, scene)) {
+    return drawn_patches_of(config.seed, scene, config.patch);
+  }
   const auto split =
       synth::evenly_spread(config.several, scene) ? synth::Split::kSeveral : synth::Split::kWide;
-  const auto patches = patches_of(split, synth::Part::kTraining, config.seed, scene, config.patch,
-                                  synth::evenly_spread(config.matched, scene));
+  return patches_of(split, synth::Part::kTraining, config.seed, scene, config.patch,
+                    synth::evenly_spread(config.matched, scene));
+}
+
+Result<std::vector<survey::Bytes>> packed_patches(const DataConfig& config, std::uint64_t scene) {
+  const auto patches = patches_of(config, scene);
   if (!patches) return patches.error();
   std::vector<survey::Bytes> packed;
   for (const Patch& patch : *patches) {

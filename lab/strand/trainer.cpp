@@ -5,6 +5,7 @@
 #include <array>
 #include <chrono>
 #include <cmath>
+#include <cstring>
 #include <fstream>
 #include <numbers>
 #include <optional>
@@ -40,7 +41,7 @@ constexpr std::array<Part, 7> kPartList{{
 constexpr std::span<const Part> kParts(kPartList);
 
 constexpr int kCheckpointVersion = 1;
-constexpr double kNoteEvery = 20;  // steps
+constexpr std::int64_t kNoteEvery = 20;  // steps
 
 /// Binary cross-entropy, weighed by how wrong a pixel is: nearly all are sky.
 Tensor focal(const Tensor& logit, const Tensor& target, const Tensor& weight) {
@@ -74,20 +75,27 @@ Tensor directions(const Tensor& output, const Tensor& target) {
   return (upper + lower) / (centre.sum() + 1);
 }
 
+/// [n, h, w, c], as the samples have their images.
 struct Batch {
   Tensor planes;
   Tensor target;
 };
 
-/// [h, w, c] of each to [n, c, h, w].
-Tensor stacked(const std::vector<Sample>& samples, cv::Mat Sample::*image) {
-  std::vector<Tensor> each;
-  for (const Sample& sample : samples) {
-    const cv::Mat& at = sample.*image;
-    each.push_back(
-        torch::from_blob(at.data, {at.rows, at.cols, at.channels()}, torch::kFloat32).clone());
-  }
-  return torch::stack(each).permute({0, 3, 1, 2}).contiguous();
+/// [n, c, h, w] there.
+Tensor on_device(const Tensor& images, torch::Device device) {
+  return images.to(device, images.scalar_type(), /*non_blocking=*/true)
+      .permute({0, 3, 1, 2})
+      .contiguous();
+}
+
+/// Room for so many images, which a GPU can fetch by itself.
+Tensor room_for(int images, int size_px, int channels, torch::Device device) {
+  return torch::empty({images, size_px, size_px, channels},
+                      torch::dtype(torch::kFloat32).pinned_memory(device.is_cuda()));
+}
+
+void copy_image(const cv::Mat& image, Tensor to) {
+  std::memcpy(to.data_ptr<float>(), image.data, image.total() * image.elemSize());
 }
 
 std::uint64_t mixed(std::uint64_t x) {
@@ -99,22 +107,25 @@ std::uint64_t mixed(std::uint64_t x) {
 /// The samples of one step, made on a pool's threads.
 class BatchMaker {
  public:
-  BatchMaker(threads::Pool& pool, const PatchStore& store, const Recipe& recipe, std::int64_t step)
-      : samples_(static_cast<std::size_t>(recipe.schedule.batch)),
-        faults_(samples_.size()),
+  BatchMaker(threads::Pool& pool, const PatchStore& store, const Recipe& recipe, std::int64_t step,
+             torch::Device device)
+      : batch_{room_for(recipe.schedule.batch, recipe.schedule.size_px, field::kPlanes, device),
+               room_for(recipe.schedule.batch, recipe.schedule.size_px, field::kChannels, device)},
+        faults_(static_cast<std::size_t>(recipe.schedule.batch)),
         beside_(pool, recipe.schedule.batch, [this, &store, &recipe, step](int i) {
           const auto number =
               static_cast<std::uint64_t>(step) * static_cast<std::uint64_t>(recipe.schedule.batch) +
               static_cast<std::uint64_t>(i);
           const std::uint64_t key = mixed(recipe.seed * 0x9E3779B97F4A7C15ULL + number);
           const auto patch = store.read(key % store.size());
-          const auto at = static_cast<std::size_t>(i);
           if (!patch) {
-            faults_[at] = patch.error();
+            faults_[static_cast<std::size_t>(i)] = patch.error();
             return;
           }
-          samples_[at] =
+          const Sample sample =
               sample_of(*patch, recipe.schedule.size_px, recipe.seed, number, recipe.spoil);
+          copy_image(sample.input, batch_.planes[i]);
+          copy_image(sample.target, batch_.target[i]);
         }) {}
 
   Result<Batch> finish() {
@@ -122,11 +133,11 @@ class BatchMaker {
     for (const auto& fault : faults_) {
       if (fault) return *fault;
     }
-    return Batch{stacked(samples_, &Sample::input), stacked(samples_, &Sample::target)};
+    return batch_;
   }
 
  private:
-  std::vector<Sample> samples_;
+  Batch batch_;
   std::vector<std::optional<Error>> faults_;
   threads::Beside beside_;
 };
@@ -166,8 +177,9 @@ LossParts step_once(State& state, const Batch& batch, torch::Device device) {
     static_cast<torch::optim::AdamWOptions&>(group.options()).lr(rate);
   }
   state.network->train();
-  const Tensor planes = batch.planes.to(device);
-  const LossParts parts = loss_of(state.network->forward(planes), batch.target.to(device), planes);
+  const Tensor planes = on_device(batch.planes, device);
+  const Tensor target = on_device(batch.target, device);
+  LossParts parts = loss_of(state.network->forward(planes), target, planes);
   state.optimizer->zero_grad();
   parts.total(state.recipe.loss).backward();
   if (schedule.clip_norm > 0) {
@@ -177,7 +189,16 @@ LossParts step_once(State& state, const Batch& batch, torch::Device device) {
   ++state.step;
   const double early = 1 - 1 / static_cast<double>(state.step + 1);
   follow(state.average, state.network, std::min(schedule.ema_decay, early));
+  for (const Part& part : kParts) parts.*part.value = (parts.*part.value).detach();
   return parts;
+}
+
+/// The mean over these steps of what `value` says of each.
+template <class Value>
+double mean_of(const std::vector<LossParts>& steps, const Value& value) {
+  std::vector<Tensor> values;
+  for (const LossParts& parts : steps) values.push_back(value(parts));
+  return torch::stack(values).mean().template item<double>();
 }
 
 }  // namespace
@@ -278,9 +299,9 @@ Result<State> start_from(const weights::FieldWeights& earlier, const PatchStore&
   threads::Pool pool(1);
   std::vector<Tensor> planes;
   for (int i = 0; i < kBatches; ++i) {
-    auto batch = BatchMaker(pool, patches, recipe, i).finish();
+    const auto batch = BatchMaker(pool, patches, recipe, i, torch::kCPU).finish();
     if (!batch) return batch.error();
-    planes.push_back(std::move(batch->planes));
+    planes.push_back(on_device(batch->planes, torch::kCPU));
   }
   settle_norms(taught, torch::cat(planes));
   return start_as(taught, recipe, device);
@@ -339,10 +360,10 @@ Result<void> train(State& state, const RunOptions& options, torch::Device device
     for (const Part& part : kParts) log << ',' << part.name;
     log << '\n';
   }
-  auto maker = std::make_unique<BatchMaker>(pool, *store, state.recipe, state.step);
+  at::globalContext().setBenchmarkCuDNN(true);
+  auto maker = std::make_unique<BatchMaker>(pool, *store, state.recipe, state.step, device);
   auto begin = Clock::now();
-  LossConfig sums{0, 0, 0, 0, 0, 0, 0};
-  double total = 0;
+  std::vector<LossParts> noted;  // of the steps since the last note
   while (state.step < last) {
     const auto batch = maker->finish();
     if (!batch) return batch.error();
@@ -351,37 +372,39 @@ Result<void> train(State& state, const RunOptions& options, torch::Device device
       maker.reset();
       if (auto grown = PatchStore::open(options.patches)) store = std::move(grown);
     }
-    maker = std::make_unique<BatchMaker>(pool, *store, state.recipe, state.step + 1);
-    const LossParts parts = step_once(state, *batch, device);
-    const double value = parts.total(state.recipe.loss).item<double>();
+    maker = std::make_unique<BatchMaker>(pool, *store, state.recipe, state.step + 1, device);
+    noted.push_back(step_once(state, *batch, device));
+    const bool note = state.step % kNoteEvery == 0;
+    const bool saves = checkpoint || state.step == last;
+    if (!note && !saves) continue;  // asking a GPU for a value makes it wait
+    const double value =
+        mean_of(noted, [&](const LossParts& parts) { return parts.total(state.recipe.loss); });
     if (!std::isfinite(value)) {
       return Error{ErrorCode::kInternal,
                    fmt::format("flowdlo-train field: expected a finite loss, got {} at step {}; "
                                "lower schedule.rate",
                                value, state.step)};
     }
-    total += value;
-    for (const Part& part : kParts) sums.*part.weight += (parts.*part.value).item<double>();
-    if (state.step % static_cast<std::int64_t>(kNoteEvery) == 0) {
-      const double n = kNoteEvery;
+    if (note) {
       const std::chrono::duration<double> elapsed = Clock::now() - begin;
-      log << fmt::format("{},{:.3g},{:.5g}", state.step, rate_at(schedule, state.step), total / n);
+      log << fmt::format("{},{:.3g},{:.5g}", state.step, rate_at(schedule, state.step), value);
       std::string told;
       for (const Part& part : kParts) {
-        log << fmt::format(",{:.5g}", sums.*part.weight / n);
-        told += fmt::format("  {} {:.5f}", part.name, sums.*part.weight / n);
+        const double mean =
+            mean_of(noted, [&](const LossParts& parts) { return parts.*part.value; });
+        log << fmt::format(",{:.5g}", mean);
+        told += fmt::format("  {} {:.5f}", part.name, mean);
       }
       log << std::endl;
       if (options.on_note) {
-        options.on_note(fmt::format("{}/{}  loss {:.4f}{}  {} patches  {:.2f} s a step", state.step,
-                                    schedule.steps, total / n, told, store->size(),
-                                    elapsed.count() / n));
+        options.on_note(fmt::format("{}/{}  loss {:.4f}{}  {} patches  {:.3f} s a step", state.step,
+                                    schedule.steps, value, told, store->size(),
+                                    elapsed.count() / static_cast<double>(noted.size())));
       }
-      sums = {0, 0, 0, 0, 0, 0, 0};
-      total = 0;
+      noted.clear();
       begin = Clock::now();
     }
-    if (checkpoint || state.step == last) {
+    if (saves) {
       const auto saved = save_checkpoint(state, options.folder / "checkpoint.pt");
       if (!saved) return saved;
     }

@@ -41,7 +41,7 @@ struct State {
   Network network{nullptr};
   Network average{nullptr};  ///< what is exported
   std::unique_ptr<torch::optim::AdamW> optimizer;
-  std::string command;  ///< for the metadata
+  std::string command;  ///< and on what it ran, for the metadata
 };
 
 [[nodiscard]] State start(const Recipe& recipe, torch::Device device);

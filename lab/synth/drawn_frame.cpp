@@ -41,6 +41,41 @@ void measure(const lab::Scene& scene, Meta& meta) {
   meta.width_px = 2 * scene.radius_m * static_cast<double>(camera.fx) / meta.distance_m;
 }
 
+/// What a camera without noise would see of these ropes and bars alone.
+DenseTruth dense_truth(const std::vector<lab::Body>& bodies, const std::vector<lab::Bar>& bars,
+                       const lab::Image& like) {
+  const lab::Plane nothing{.normal = Vector3d(0, 0, 1), .offset_m = 1000};
+  lab::Image image;
+  image.width = like.width;
+  image.height = like.height;
+  image.camera = like.camera;
+  if (bars.empty()) {
+    lab::render(bodies, nothing, image);
+  } else {
+    lab::render(bodies.front().curve, bodies.front().radius_m, nothing, bars, image);
+  }
+  DenseTruth dense;
+  for (const lab::Body& body : bodies) {
+    dense.curves.push_back(respaced(body.curve, 0.5 * body.radius_m));
+  }
+  dense.depth_m = std::move(image.depth_m);
+  dense.mask = std::move(image.mask);
+  return dense;
+}
+
+void take(lab::Image& image, FrameFolder& folder) {
+  folder.width = image.width;
+  folder.height = image.height;
+  folder.intrinsics = image.camera;
+  folder.depth_m = std::move(image.depth_m);
+  for (float& z : folder.depth_m) {  // as it will be read from disk
+    z = static_cast<float>(std::round(static_cast<double>(z) / kDepthScale_m) * kDepthScale_m);
+  }
+  folder.mask = std::move(image.mask);
+  folder.color_bgr = std::move(image.color_bgr);
+  folder.instances = std::move(image.instances);
+}
+
 }  // namespace
 
 std::uint64_t drawn_seed(Part part, std::uint64_t seed, std::uint64_t index) {
@@ -48,7 +83,7 @@ std::uint64_t drawn_seed(Part part, std::uint64_t seed, std::uint64_t index) {
          (part == Part::kValidation ? kFirstDrawnValidation : 0);
 }
 
-SyntheticFrame drawn_frame(Kind kind, std::uint64_t seed) {
+SyntheticFrame drawn_frame(Kind kind, std::uint64_t seed, bool dense) {
   lab::Scene scene = lab::make_scene(kind, seed);
   SyntheticFrame result;
   Meta& meta = result.meta;
@@ -61,17 +96,26 @@ SyntheticFrame drawn_frame(Kind kind, std::uint64_t seed) {
   meta.defects = defects_of(kind);
   measure(scene, meta);
   result.ropes = {{scene.truth, scene.radius_m, false}};
-  FrameFolder& folder = result.folder;
-  folder.width = scene.image.width;
-  folder.height = scene.image.height;
-  folder.intrinsics = scene.image.camera;
-  folder.depth_m = std::move(scene.image.depth_m);
-  for (float& z : folder.depth_m) {  // as it will be read from disk
-    z = static_cast<float>(std::round(static_cast<double>(z) / kDepthScale_m) * kDepthScale_m);
+  if (dense) {
+    result.dense = dense_truth({{scene.curve, scene.radius_m}}, scene.bars, scene.image);
   }
-  folder.mask = std::move(scene.image.mask);
-  folder.color_bgr = std::move(scene.image.color_bgr);
-  folder.truth = scene.truth;
+  take(scene.image, result.folder);
+  result.folder.truth = scene.truth;
+  return result;
+}
+
+SyntheticFrame drawn_ropes_frame(lab::RopesKind kind, int ropes, std::uint64_t seed, bool dense) {
+  lab::RopesScene scene = lab::make_ropes(kind, ropes, seed);
+  SyntheticFrame result;
+  result.meta.ropes = static_cast<int>(scene.ropes.size());
+  std::vector<lab::Body> bodies;
+  for (const lab::SeenRope& rope : scene.ropes) {
+    result.ropes.push_back({rope.truth, rope.radius_m, rope.closed});
+    bodies.push_back({rope.curve, rope.radius_m});
+  }
+  if (dense) result.dense = dense_truth(bodies, {}, scene.image);
+  take(scene.image, result.folder);
+  result.folder.truth = scene.ropes.front().truth;
   return result;
 }
 

@@ -148,16 +148,16 @@ Meta identity_of(const SceneKey& key, std::string_view scenario, int frame) {
   return meta;
 }
 
-SyntheticFrame drawn(const SceneKey& key, bool color) {
+SyntheticFrame drawn(const SceneKey& key, const Render& render) {
   const auto kind = static_cast<lab::Kind>(key.index % lab::kKinds);
-  SyntheticFrame frame = drawn_frame(kind, drawn_seed(key.part, key.seed, key.index));
+  SyntheticFrame frame = drawn_frame(kind, drawn_seed(key.part, key.seed, key.index), render.dense);
   const Meta identity = identity_of(key, frame.meta.scenario, 0);
   frame.meta.split = identity.split;
   frame.meta.part = identity.part;
   frame.meta.seed = identity.seed;
   frame.meta.index = identity.index;
   frame.folder.name = folder_name(frame.meta);
-  if (!color) frame.folder.color_bgr.clear();
+  if (!render.color) frame.folder.color_bgr.clear();
   return frame;
 }
 
@@ -319,7 +319,7 @@ Result<SyntheticFrame> make_frame(Split split, Part part, std::uint64_t seed, st
                                   const Render& render) {
   if (const auto good = check(split, part, index, render.frame); !good) return good.error();
   const SceneKey key{split, part, seed, index};
-  if (split == Split::kDrawn) return drawn(key, render.color);
+  if (split == Split::kDrawn) return drawn(key, render);
   Scene scene(key, scenario_of(key));
   if (const auto ready = scene.set_up(); !ready) return ready.error();
   return scene.taken(render);

@@ -21,7 +21,7 @@ namespace flowdlo::synth {
 
 /// kThesis: nine groups on a table, 0.3 to 0.5 m away, clean depth. kWide: whatever a user brings.
 /// kSeveral: the same with two to nine ropes in one mask. kDrawn: lab/scene's tubes in a plain
-/// z-buffer, one frame each, without dense truth.
+/// z-buffer, one frame each.
 enum class Split { kThesis, kWide, kSeveral, kDrawn };
 
 /// The two never share a scene, whatever the seeds: the part is a bit of every random counter.

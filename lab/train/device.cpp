@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <fstream>
+#include <vector>
 
 #include "threads/count.hpp"
 #include "train/blas.hpp"
@@ -18,6 +20,23 @@ std::string processor_name() {
     if (line.starts_with("model name") && colon != std::string::npos) return line.substr(colon + 2);
   }
   return "CPU";
+}
+
+/// As NVIDIA's driver tells it; the runtime's own headers are not needed for that.
+std::string cuda_name(int index) {
+  std::vector<std::filesystem::path> cards;
+  std::error_code none;
+  for (const auto& card : std::filesystem::directory_iterator("/proc/driver/nvidia/gpus", none)) {
+    cards.push_back(card.path());
+  }
+  std::sort(cards.begin(), cards.end());
+  if (index < 0 || static_cast<std::size_t>(index) >= cards.size()) return "a CUDA device";
+  std::ifstream stream(cards[static_cast<std::size_t>(index)] / "information");
+  for (std::string line; std::getline(stream, line);) {
+    const auto name = line.find_first_not_of(" \t", line.find(':') + 1);
+    if (line.starts_with("Model:") && name != std::string::npos) return line.substr(name);
+  }
+  return "a CUDA device";
 }
 
 bool processor_multiplies_bf16() {
@@ -44,8 +63,7 @@ Result<torch::Device> choose_device(const std::string& wanted) {
 
 std::string describe(torch::Device device) {
   if (device.is_cuda()) {
-    return fmt::format("CUDA device {}, libtorch {}", static_cast<int>(device.index()),
-                       TORCH_VERSION);
+    return fmt::format("{}, libtorch {}", cuda_name(device.index()), TORCH_VERSION);
   }
   return fmt::format("{}, {} threads, libtorch {}", processor_name(), at::get_num_threads(),
                      TORCH_VERSION);

@@ -119,9 +119,7 @@ int look_at_samples(const LookArguments& arguments) {
 int export_field(const ExportArguments& arguments) {
   const auto state = strand::load_checkpoint(arguments.folder / "checkpoint.pt", torch::kCPU);
   if (!state) return failed(state.error());
-  const std::string notes =
-      fmt::format("{}, step {}; {}", state->command, state->step, describe(torch::kCPU));
-  auto field = strand::exported(*state, notes);
+  auto field = strand::exported(*state, fmt::format("{}; step {}", state->command, state->step));
   if (!arguments.refine.empty()) {
     auto other = weights::load_field(arguments.refine);
     if (!other) return failed(other.error());
@@ -173,7 +171,7 @@ int train_field(const FieldArguments& arguments) {
                                arguments.recipe.string(), arguments.folder.string())},
                   2);
   }
-  state->command = arguments.command;
+  state->command = fmt::format("{}; {}", arguments.command, describe(*device));
   strand::RunOptions options;
   options.folder = arguments.folder;
   options.patches = arguments.patches;

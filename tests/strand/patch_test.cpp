@@ -25,12 +25,15 @@ TEST(Patch, IsTheSameEveryTimeAndAnotherForAnotherScene) {
   EXPECT_NE(first->front().mask, other->front().mask);
 }
 
-TEST(Patch, ItsStrandsLieOnTheRopeThatItShows) {
-  const auto patches = patches_of(synth::Split::kWide, synth::Part::kTraining, kSeed, 11);
-  ASSERT_TRUE(patches);
+/// Visible points of the strands within their patches, and how many of them the mask shows.
+struct OnMask {
   int visible = 0;
-  int on_mask = 0;
-  for (const Patch& patch : *patches) {
+  int masked = 0;
+};
+
+OnMask on_mask(const std::vector<Patch>& patches) {
+  OnMask count;
+  for (const Patch& patch : patches) {
     for (const Strand& strand : patch.strands) {
       for (const AxisPoint& point : strand.points) {
         const auto u = static_cast<int>(std::lround(point.u));
@@ -38,13 +41,39 @@ TEST(Patch, ItsStrandsLieOnTheRopeThatItShows) {
         if (point.seen != Seen::kYes || u < 0 || v < 0 || u >= patch.width || v >= patch.height) {
           continue;
         }
-        ++visible;
-        on_mask += patch.mask[static_cast<std::size_t>(v * patch.width + u)] > 60;
+        ++count.visible;
+        count.masked += patch.mask[static_cast<std::size_t>(v * patch.width + u)] > 60;
       }
     }
   }
-  EXPECT_GT(visible, 100);
-  EXPECT_GT(on_mask, 0.9 * visible);
+  return count;
+}
+
+TEST(Patch, ItsStrandsLieOnTheRopeThatItShows) {
+  const auto patches = patches_of(synth::Split::kWide, synth::Part::kTraining, kSeed, 11);
+  ASSERT_TRUE(patches);
+  const OnMask count = on_mask(*patches);
+  EXPECT_GT(count.visible, 100);
+  EXPECT_GT(count.masked, 0.9 * count.visible);
+}
+
+TEST(Patch, OfDrawnFramesShowsOneRopeAndSeveralByTurns) {
+  for (std::uint64_t index = 0; index < 8; ++index) {
+    const auto patches = drawn_patches_of(kSeed, index);
+    ASSERT_FALSE(patches.empty());
+    const OnMask count = on_mask(patches);
+    EXPECT_GT(count.masked, 0.9 * count.visible) << index;
+    int ropes = 0;
+    for (const Patch& patch : patches) {
+      for (const Strand& strand : patch.strands) ropes = std::max(ropes, strand.rope + 1);
+    }
+    if (index % 2 == 0) {
+      EXPECT_EQ(ropes, 1) << index;
+    } else {
+      EXPECT_GE(ropes, 2) << index;
+    }
+  }
+  EXPECT_EQ(drawn_patches_of(kSeed, 3).front().mask, drawn_patches_of(kSeed, 3).front().mask);
 }
 
 TEST(Patch, AWideRopeIsShrunk) {

@@ -10,12 +10,14 @@ namespace {
 
 using testing::HasSubstr;
 
-TEST(FieldRecipe, TheRepositorysIsReadAndWritesItself) {
-  const auto recipe = read_recipe(test::source_dir() / "lab/train/recipes/field.json");
-  ASSERT_TRUE(recipe) << recipe.error().message;
-  const auto again = parse_recipe(to_json(*recipe), "again");
-  ASSERT_TRUE(again) << again.error().message;
-  EXPECT_EQ(to_json(*again), to_json(*recipe));
+TEST(FieldRecipe, TheRepositorysAreReadAndWriteThemselves) {
+  for (const char* const name : {"field.json", "field_gpu.json"}) {
+    const auto recipe = read_recipe(test::source_dir() / "lab/train/recipes" / name);
+    ASSERT_TRUE(recipe) << recipe.error().message;
+    const auto again = parse_recipe(to_json(*recipe), "again");
+    ASSERT_TRUE(again) << again.error().message;
+    EXPECT_EQ(to_json(*again), to_json(*recipe));
+  }
 }
 
 TEST(FieldRecipe, EveryFaultIsNamed) {
