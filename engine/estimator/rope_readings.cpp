@@ -26,13 +26,13 @@ constexpr float kToldSurely = 0.9F;
 // Odds of a rope are exp(at_none + each * lead). With a strand field: most likely on 112 drawn and
 // 267 rendered scenes (`flowdlo-lab ropes-report --scenes 4 --rendered-scenes 300
 // --rendered-first 1000100 --field weights/field.safetensors`), those of kDisputed by a field
-// before: the one that ships would have -0.81 and 0.46, and what only one reading has stays
+// before: the one that ships would have -0.62 and 0.43, and what only one reading has stays
 // doubtful. Of the mask alone, in its costs: on 128 drawn scenes.
 struct Odds {
   float at_none = 0;
   float each = 0;
 };
-constexpr Odds kAgreed{0.61F, 0.73F};   // both readings have it
+constexpr Odds kAgreed{-0.03F, 0.83F};  // both readings have it
 constexpr Odds kDisputed{-0.6F, 0.2F};  // the mask has none like it
 constexpr Odds kAlone{-2.4F, 2.0F};
 

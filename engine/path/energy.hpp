@@ -41,18 +41,19 @@ using StopTerms = std::array<float, kStopTerms>;
 inline constexpr LinkTerms kOneRopeLinks{1.0F, 1.05F, 0.95F, 2.0F, 3.4F, 0.8F, 0.3F, 0.0F};
 
 /// Where a rope may as well end. Fitted by the same with `--first 3200000 --scenes 200 --several
-/// 700`, as what stops cost; colour, in any light, with `--scenes 100 --several 330`; depth, whose
-/// fit says nothing, so that 12 cm of it outweigh a right angle.
-inline constexpr LinkTerms kSeveralRopesLinks{2.1F, 1.0F, 0.4F, 2.0F, 1.7F, 1.6F, 0.5F, 1.0F};
-inline constexpr StopTerms kStopWeights{1.6F, 4.7F, 1.0F};
+/// 700`, as what stops cost; depth, whose fit says nothing, so that 12 cm of it outweigh a right
+/// angle; what the mask says weighs 1.0 and 1.7 where the fit has 0.85 and 0.7, for where a field
+/// is blind nobody else knows.
+inline constexpr LinkTerms kSeveralRopesLinks{1.3F, 0.8F, 0.4F, 1.05F, 1.2F, 2.4F, 0.5F, 1.0F};
+inline constexpr StopTerms kStopWeights{0.1F, 4.6F, 1.7F};
 
 /// Of each width of a strand that a path leaves out. Chosen on `wide` training scenes 3000500 to
 /// 3000749 by `flowdlo-lab reading-report`: 1 is worse by 0.1 cm, 4 by 0.02.
 inline constexpr float kLeftOutEnergy = 2.5F;
 
-/// And of one more closed rope, which has no ends to pay for. Chosen on drawn scenes of rings
-/// (`flowdlo-lab ropes-report`).
-inline constexpr float kRingEnergy = 1.0F;
+/// And of one more closed rope, which has no ends to pay for. Chosen on drawn and rendered training
+/// scenes (`flowdlo-lab ropes-report`): 1 is worse.
+inline constexpr float kRingEnergy = 0.5F;
 
 /// And, among several ropes, of two links that meet and do not cross (path/touches): strands that
 /// come together rather cross than touch, and what looks like a ring beside a rope is a loop of it.
@@ -61,10 +62,10 @@ inline constexpr float kRingEnergy = 1.0F;
 inline constexpr float kTouchEnergy = 1.0F;
 
 /// How much the end of a strand of the mask looks like the rope's own, where no field says it: a
-/// tip in plain sight; one at which an occluder begins, or beyond which another strand passes. An
-/// end at a crossing looks like none.
-inline constexpr float kPlainTip = 1.0F;
-inline constexpr float kCoveredTip = 0.3F;
+/// tip in plain sight, which costs as much as three widths of gap; one at which an occluder begins,
+/// or beyond which another strand passes. An end at a crossing looks like none.
+inline constexpr float kPlainTip = 0.8F;
+inline constexpr float kCoveredTip = 0.1F;
 
 template <std::size_t Count>
 [[nodiscard]] float energy_of(const std::array<float, Count>& terms,
