@@ -85,8 +85,7 @@ class Follower {
     if (marks_.taken(seed.px, along, line_, 0)) return line;
     marks_.set(seed.px, along, reach_at(seed.px), line_, 0);
     const Points forwards = walk(seed.px, along, 1);
-    line.closed = forwards.size() > static_cast<std::size_t>(2 * kRope_px) &&
-                  (forwards.back() - seed.px).norm() < kRope_px;
+    line.closed = comes_back(forwards, seed.px, along);
     if (!line.closed) {
       const Points backwards = walk(seed.px, -along, -1);
       line.points_px.assign(backwards.rbegin(), backwards.rend());
@@ -97,6 +96,13 @@ class Follower {
   }
 
  private:
+  /// Whether a walk from `begin` ends there, and on the same ridge: a strand may cross its own.
+  static bool comes_back(const Points& walked, const Vector2f& begin, const Vector2f& along) {
+    if (walked.size() <= static_cast<std::size_t>(2 * kRope_px)) return false;
+    const Vector2f heading = (walked.back() - walked[walked.size() - 2]).normalized();
+    return (walked.back() - begin).norm() < kRope_px && heading.dot(along) > std::cos(kOneLine);
+  }
+
   /// A pixel on along the ridge. False where it ends, or turns as no rope does.
   bool step(Vector2f& p, Vector2f& heading) const {
     p += heading;

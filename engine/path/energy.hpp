@@ -42,10 +42,10 @@ inline constexpr LinkTerms kOneRopeLinks{1.0F, 1.05F, 0.95F, 2.0F, 3.4F, 0.8F, 0
 
 /// Where a rope may as well end. Fitted by the same with `--first 3200000 --scenes 200 --several
 /// 700`, as what stops cost; depth, whose fit says nothing, so that 12 cm of it outweigh a right
-/// angle; what the mask says weighs 1.0 and 1.7 where the fit has 0.85 and 0.7, for where a field
-/// is blind nobody else knows.
+/// angle. What the mask says weighs 1.0 where the fit has 0.85 and 0.7. A stop costs 0.8 where the
+/// fit has 0.1: a real rope behind a bar is parted with less than 0.6.
 inline constexpr LinkTerms kSeveralRopesLinks{1.3F, 0.8F, 0.4F, 1.05F, 1.2F, 2.4F, 0.5F, 1.0F};
-inline constexpr StopTerms kStopWeights{0.1F, 4.6F, 1.7F};
+inline constexpr StopTerms kStopWeights{0.8F, 4.6F, 1.0F};
 
 /// Of each width of a strand that a path leaves out. Chosen on `wide` training scenes 3000500 to
 /// 3000749 by `flowdlo-lab reading-report`: 1 is worse by 0.1 cm, 4 by 0.02.
@@ -62,10 +62,10 @@ inline constexpr float kRingEnergy = 0.5F;
 inline constexpr float kTouchEnergy = 1.0F;
 
 /// How much the end of a strand of the mask looks like the rope's own, where no field says it: a
-/// tip in plain sight, which costs as much as three widths of gap; one at which an occluder begins,
-/// or beyond which another strand passes. An end at a crossing looks like none.
-inline constexpr float kPlainTip = 0.8F;
-inline constexpr float kCoveredTip = 0.1F;
+/// tip in plain sight; one at which an occluder begins, or beyond which another strand passes. An
+/// end at a crossing looks like none.
+inline constexpr float kPlainTip = 1.0F;
+inline constexpr float kCoveredTip = 0.3F;
 
 template <std::size_t Count>
 [[nodiscard]] float energy_of(const std::array<float, Count>& terms,
