@@ -60,20 +60,21 @@ std::vector<std::size_t> peaks(const Points& points, const Surface& surface, flo
   return found;
 }
 
-/// A closed line opened where an end shows; a line cut where two ends touch.
+/// A closed line from where it looks most like its ends, and opened if they show there.
+void begin_at_tip(AxisLine& line, const Surface& surface) {
+  std::vector<float> tips;
+  for (const Vector2f& p : line.points_px) tips.push_back(surface.at(p, kTip));
+  const auto highest = std::max_element(tips.begin(), tips.end());
+  if (highest == tips.end()) return;
+  line.closed = *highest < kOpen;
+  std::rotate(line.points_px.begin(), line.points_px.begin() + (highest - tips.begin()),
+              line.points_px.end());
+}
+
+/// A line cut where two ends touch.
 std::vector<AxisLine> parted(AxisLine line, const Surface& surface) {
-  if (line.closed) {
-    const auto found = peaks(line.points_px, surface, kOpen);
-    if (found.empty()) return {std::move(line)};
-    const auto highest =
-        *std::max_element(found.begin(), found.end(), [&](std::size_t a, std::size_t b) {
-          return surface.at(line.points_px[a], kTip) < surface.at(line.points_px[b], kTip);
-        });
-    std::rotate(line.points_px.begin(),
-                line.points_px.begin() + static_cast<std::ptrdiff_t>(highest),
-                line.points_px.end());
-    line.closed = false;
-  }
+  if (line.closed) begin_at_tip(line, surface);
+  if (line.closed) return {std::move(line)};
   std::vector<AxisLine> parts;
   std::size_t first = 0;
   const auto apart = static_cast<std::size_t>(kRope_px);

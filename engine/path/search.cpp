@@ -169,17 +169,27 @@ class Ends {
   float all_left_out_ = 0;  // what it costs to use no strand
 };
 
-// [2 * strands] what it costs to end at each.
-std::vector<float> stops_of(const Strands& strands, const std::vector<Eigen::Vector2f>& known) {
+// [2 * strands] what it costs a rope to end at each.
+std::vector<float> stops_of(const Strands& strands) {
   std::vector<float> stops;
   for (int end = 0; end < 2 * static_cast<int>(strands.list.size()); ++end) {
-    const float cost = strands.end(end).end_cost;
+    stops.push_back(strands.end(end).end_cost);
+  }
+  return stops;
+}
+
+// The same of the only rope, some ends of which may be known.
+std::vector<float> only_stops_of(const Strands& strands,
+                                 const std::vector<Eigen::Vector2f>& known) {
+  std::vector<float> stops = stops_of(strands);
+  for (int end = 0; end < static_cast<int>(stops.size()); ++end) {
+    const float cost = stops[end] + (strands.end(end).leaves ? kLeavesEnergy : 0);
     float near = 0;
     for (const Eigen::Vector2f& place : known) {
       const float off = (strands.end(end).point_px - place).norm() / strands.scale_px;
       near = std::max(near, std::exp(-0.5F * off * off / (kEndReach * kEndReach)));
     }
-    stops.push_back(known.empty() ? cost : (1 - near) * (cost + kElsewhere));
+    stops[end] = known.empty() ? cost : (1 - near) * (cost + kElsewhere);
   }
   return stops;
 }
@@ -213,7 +223,7 @@ std::vector<int> key_of(const Traversal& way, const Strands& strands) {
 std::vector<RopeSet> search_sets(const Strands& strands,
                                  const std::vector<std::vector<Bond>>& bonds, int ropes,
                                  std::size_t count) {
-  const Ends ends(strands, bonds, stops_of(strands, {}), true);
+  const Ends ends(strands, bonds, stops_of(strands), true);
   const auto wanted = static_cast<std::size_t>(ropes);
   std::vector<RopeSet> found;
   for (RopeSet& set : ropes > 0 ? ends.sets_around(wanted) : ends.sets(0, kPairings)) {
@@ -228,7 +238,7 @@ std::vector<RopeSet> search_sets(const Strands& strands,
 
 std::vector<Traversal> search(const Strands& strands, const std::vector<std::vector<Bond>>& bonds,
                               int count, const std::vector<Eigen::Vector2f>& ends) {
-  const Ends paired(strands, bonds, stops_of(strands, ends), false);
+  const Ends paired(strands, bonds, only_stops_of(strands, ends), false);
   std::map<std::vector<int>, Traversal> found;  // the cheapest of each kind
   for (const RopeSet& set : paired.sets_around(1)) {
     for (const Traversal& way : set.ways) {

@@ -14,6 +14,7 @@ constexpr double kStep_px = 0.5;
 constexpr double kOwnSurface = 1.8;  // radii before its axis that a rope's own surface lies at most
 constexpr double kNearWidths = 2.5;  // between axes of strands that are near each other
 constexpr double kApartWidths = 4;   // of arclength between two strands
+constexpr float kHeldWidths = 8;     // of a rope's end, hidden by what holds it, as of a gripper
 
 using synth::Vector2d;
 using synth::Vector3d;
@@ -63,6 +64,31 @@ Strand strand_of(const synth::SyntheticFrame& frame, std::size_t rope) {
     }
   }
   add(curve.points.back(), curve.length_m());
+  return strand;
+}
+
+/// How many points from `first` on are hidden by what holds the rope's end there: a few widths of
+/// it, inside the image, behind no other strand.
+template <class Iterator>
+std::ptrdiff_t held(Iterator first, Iterator last, const FrameFolder& folder) {
+  const auto shown =
+      std::find_if(first, last, [](const AxisPoint& p) { return p.seen != Seen::kNo; });
+  if (shown == last) return 0;
+  const bool inside = std::all_of(first, shown, [&](const AxisPoint& p) {
+    return p.u >= 0 && p.v >= 0 && p.u < static_cast<float>(folder.width) &&
+           p.v < static_cast<float>(folder.height);
+  });
+  const float hidden = std::abs(shown->along_widths - first->along_widths);
+  return inside && hidden <= kHeldWidths ? shown - first : 0;
+}
+
+/// A strand whose held ends are where they are seen last: there a rope ends for all who look.
+Strand without_held(Strand strand, const FrameFolder& folder) {
+  auto& points = strand.points;
+  if (strand.ends)
+    points.erase(points.end() - held(points.rbegin(), points.rend(), folder), points.end());
+  if (strand.begins)
+    points.erase(points.begin(), points.begin() + held(points.begin(), points.end(), folder));
   return strand;
 }
 
@@ -301,7 +327,7 @@ synth::SyntheticFrame drawn_training_frame(std::uint64_t seed, std::uint64_t ind
 std::vector<Strand> strands_of(const synth::SyntheticFrame& frame) {
   std::vector<Strand> strands;
   for (std::size_t k = 0; k < frame.dense->curves.size(); ++k) {
-    strands.push_back(strand_of(frame, k));
+    strands.push_back(without_held(strand_of(frame, k), frame.folder));
   }
   return strands;
 }

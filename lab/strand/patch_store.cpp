@@ -1,6 +1,7 @@
 #include "strand/patch_store.hpp"
 
 #include <optional>
+#include <string_view>
 #include <utility>
 
 #include "synth/evenly_spread.hpp"
@@ -57,9 +58,28 @@ std::optional<Patch> get(survey::Unpacker& from) {
   return whole ? std::optional(std::move(patch)) : std::nullopt;
 }
 
+constexpr std::string_view kTouching = "ends-touch";
+
+/// The next scene from a place of `scene`'s own on that shows a ring whose ends touch.
+std::uint64_t touching_index(std::uint64_t seed, std::uint64_t scene) {
+  constexpr std::uint64_t kAhead = 256;  // of which each is one in twelve times
+  std::uint64_t index = kAhead * scene;
+  for (std::uint64_t i = 1; i < kAhead; ++i, ++index) {
+    const auto scenario =
+        synth::scenario_of(synth::Split::kWide, synth::Part::kTraining, seed, index);
+    if (scenario && *scenario == kTouching) break;
+  }
+  return index;
+}
+
 Result<std::vector<Patch>> patches_of(const DataConfig& config, std::uint64_t scene) {
   if (synth::evenly_spread(config.drawn, scene)) {
     return drawn_patches_of(config.seed, scene, config.patch);
+  }
+  if (synth::evenly_spread(config.touching, scene)) {
+    const std::uint64_t seed = config.seed + 1;  // other scenes than the rest
+    return patches_of(synth::Split::kWide, synth::Part::kTraining, seed,
+                      touching_index(seed, scene), config.patch);
   }
   const auto split =
       synth::evenly_spread(config.several, scene) ? synth::Split::kSeveral : synth::Split::kWide;

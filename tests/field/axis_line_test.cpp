@@ -95,6 +95,38 @@ TEST(AxisLines, ARingIsClosedUnlessAnEndShows) {
   EXPECT_GT(std::min(open[0].tips[0], open[0].tips[1]), 0.5F);
 }
 
+TEST(AxisLines, ARingBeginsWhereItLooksMostLikeAnEnd) {
+  constexpr float kAround = 2 * std::numbers::pi_v<float>;
+  Channels field = painted_field({arc_axis({80, 80}, 50, 0, kAround)});
+  const Vector2f faint(30, 80);
+  field.at(80, 30)[kTip] = 0.2F;  // too little to open it
+  const auto lines = axis_lines(field);
+  ASSERT_EQ(lines.size(), 1U);
+  EXPECT_TRUE(lines[0].closed);
+  EXPECT_LT((lines[0].points_px.front() - faint).norm(), 4);
+}
+
+TEST(AxisLines, ALoopIsNoRing) {
+  constexpr float kTurn = 2 * std::numbers::pi_v<float>;
+  Curve upper = straight_axis({40, 130}, {110, 60});
+  for (const Curve& next : {arc_axis({92.3F, 42.3F}, 25, kTurn / 8, -5 * kTurn / 8),
+                            straight_axis({74.6F, 60}, {87.3F, 72.7F})}) {
+    upper.insert(upper.end(), next.begin() + 1, next.end());
+  }
+  const Curve lower = straight_axis({87.3F, 72.7F}, {135, 120.4F});  // and below itself
+  Channels field = painted_field({lower, upper});
+  const Vector2f crossing(92.3F, 77.7F);
+  for (int v = 0; v < field.height(); ++v) {
+    for (int u = 0; u < field.width(); ++u) {  // so that a line begins at the crossing
+      const Vector2f p(static_cast<float>(u), static_cast<float>(v));
+      if ((p - crossing).norm() > 2) field.at(v, u)[kCentre] *= 0.9F;
+    }
+  }
+  const auto lines = axis_lines(field);
+  EXPECT_FALSE(lines.empty());
+  for (const AxisLine& line : lines) EXPECT_FALSE(line.closed);
+}
+
 TEST(AxisLines, WhereTwoEndsTouchTheLineIsCut) {
   Channels field = painted_field({straight_axis({20, 80}, {140, 80})});
   show_tip(field, {90, 80});

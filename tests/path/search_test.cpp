@@ -54,6 +54,30 @@ float cheapest(const Strands& strands, const std::vector<std::vector<Bond>>& bon
   return best;
 }
 
+TEST(Search, TheOnlyRopeRatherComesBackIntoTheImageThanItsTipsAreJoined) {
+  Strands strands = strands_of(2, 100);  // each from a tip, 0 and 2, to the border, 1 and 3
+  for (const int end : {0, 2}) strands.list[static_cast<std::size_t>(end / 2)].ends[0].end_cost = 1;
+  for (const int end : {1, 3})
+    strands.list[static_cast<std::size_t>(end / 2)].ends[1].leaves = true;
+  std::vector<std::vector<Bond>> bonds(4);
+  join(bonds, 0, 2, 1);
+  join(bonds, 1, 3, 4);
+  const auto ways = search(strands, bonds, 2);
+  ASSERT_EQ(ways.size(), 2U);
+  EXPECT_THAT(ways.front().enters,
+              testing::AnyOf(testing::ElementsAre(0, 3), testing::ElementsAre(2, 1)));
+  EXPECT_FLOAT_EQ(ways.front().cost, 1 + 1 + 4);
+  EXPECT_FLOAT_EQ(ways.back().cost, 1 + 2 * kLeavesEnergy);
+}
+
+TEST(SearchSets, OneOfSeveralRopesMayEndAtTheBorder) {
+  Strands strands = strands_of(1, 100);
+  strands.list[0].ends[0].leaves = strands.list[0].ends[1].leaves = true;
+  const auto sets = search_sets(strands, std::vector<std::vector<Bond>>(2), 0, 1);
+  ASSERT_EQ(sets.size(), 1U);
+  EXPECT_FLOAT_EQ(sets.front().cost, 0);
+}
+
 TEST(Search, FindsTheCheapestOfAllTraversals) {
   std::mt19937 random(3);
   for (int round = 0; round < 30; ++round) {

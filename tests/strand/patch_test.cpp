@@ -57,6 +57,41 @@ TEST(Patch, ItsStrandsLieOnTheRopeThatItShows) {
   EXPECT_GT(count.masked, 0.9 * count.visible);
 }
 
+/// A frame of which every strand is known; its picture is not.
+Result<synth::SyntheticFrame> dense_frame(std::uint64_t index) {
+  synth::Render render;
+  render.color = false;
+  render.dense = true;
+  return synth::make_frame(synth::Split::kWide, synth::Part::kTraining, kSeed, index, render);
+}
+
+TEST(Patch, AnEndThatAGripperHoldsIsWhereItIsSeenLast) {
+  int held = 0;
+  for (std::uint64_t index = 0; index < 80 && held < 3; ++index) {
+    const auto scenario =
+        synth::scenario_of(synth::Split::kWide, synth::Part::kTraining, kSeed, index);
+    ASSERT_TRUE(scenario);
+    if (*scenario != "hanging") continue;
+    const auto frame = dense_frame(index);
+    ASSERT_TRUE(frame);
+    const auto& curve = frame->dense->curves.front();
+    const double width_m = 2 * frame->ropes.front().radius_m;
+    const auto strands = strands_of(*frame);
+    const auto& points = strands.front().points;
+    const double before = static_cast<double>(points.front().along_widths);
+    const double behind =
+        curve.length_m() / width_m - static_cast<double>(points.back().along_widths);
+    for (const auto& [off, end] :
+         {std::pair(before, points.front()), std::pair(behind, points.back())}) {
+      EXPECT_LE(off, 8.001);
+      if (off < 0.01) continue;
+      EXPECT_NE(end.seen, Seen::kNo) << index;
+      ++held;
+    }
+  }
+  EXPECT_GE(held, 3);
+}
+
 TEST(Patch, OfDrawnFramesShowsOneRopeAndSeveralByTurns) {
   for (std::uint64_t index = 0; index < 8; ++index) {
     const auto patches = drawn_patches_of(kSeed, index);
@@ -94,6 +129,7 @@ class PatchStoreTest : public ::testing::Test {
                                    {.seed = kSeed,
                                     .scenes = scenes,
                                     .several = several_,
+                                    .touching = touching_,
                                     .matched = matched_,
                                     .patch = small_},
                                    2, [] {});
@@ -105,6 +141,7 @@ class PatchStoreTest : public ::testing::Test {
 
   PatchConfig small_{.each = 1, .half_widths = 4, .least_half_px = 12};
   double several_ = 0;
+  double touching_ = 0;
   double matched_ = 0;
   test::TemporaryFolder folder_;
 };
@@ -137,6 +174,25 @@ TEST_F(PatchStoreTest, AShareOfTheScenesShowsSeveralRopes) {
   }
   EXPECT_GT(several, 10);
   EXPECT_LT(several, 30);
+}
+
+TEST_F(PatchStoreTest, AShareOfTheScenesShowsARingWhoseEndsTouch) {
+  small_ = {.each = 2, .near_share = 0, .end_share = 1};
+  touching_ = 0.5;
+  make(1);
+  const auto store = PatchStore::open(folder_.path());
+  ASSERT_TRUE(store) << store.error().message;
+  int both = 0;  // patches that show both ends
+  for (std::size_t i = 0; i < store->size(); ++i) {
+    const auto patch = store->read(i);
+    ASSERT_TRUE(patch);
+    const auto shows = [&](bool Strand::*end) {
+      return std::any_of(patch->strands.begin(), patch->strands.end(),
+                         [&](const Strand& strand) { return strand.*end; });
+    };
+    both += shows(&Strand::begins) && shows(&Strand::ends);
+  }
+  EXPECT_GT(both, 25) << "of 64 patches, half of them of such rings";
 }
 
 TEST_F(PatchStoreTest, AShareOfTheScenesHasMatchedDepth) {

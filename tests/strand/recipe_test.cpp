@@ -11,7 +11,7 @@ namespace {
 using testing::HasSubstr;
 
 TEST(FieldRecipe, TheRepositorysAreReadAndWriteThemselves) {
-  for (const char* const name : {"field.json", "field_gpu.json"}) {
+  for (const char* const name : {"field.json", "field_gpu.json", "field_ends.json"}) {
     const auto recipe = read_recipe(test::source_dir() / "lab/train/recipes" / name);
     ASSERT_TRUE(recipe) << recipe.error().message;
     const auto again = parse_recipe(to_json(*recipe), "again");
