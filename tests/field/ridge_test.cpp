@@ -56,7 +56,7 @@ TEST(Tips, OneAPeakHoweverFlat) {
   for (int v = 20; v < 23; ++v) {
     for (int u = 30; u < 33; ++u) tip(u, v) = 0.9F;
   }
-  tip(50, 50) = 0.6F;
+  tip(50, 50) = 0.75F;
   tip(5, 5) = 0.3F;
   const auto found = tips(field);
   ASSERT_EQ(found.size(), 2U);
