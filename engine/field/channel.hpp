@@ -13,7 +13,8 @@ enum Channel {
   kCentre,  ///< nearness to the axis of the strand that shows: exp(-(distance / (w / 4))^2)
   kCos,     ///< direction of that strand
   kSin,
-  kTip,       ///< nearness to an end that shows: exp(-(distance / (0.7 w))^2)
+  kTip,       ///< nearness to an end that shows, or that something holds, where it is seen last:
+              ///< exp(-(distance / (0.7 w))^2)
   kUnder,     ///< nearness to the axis of a strand that runs below the one that shows
   kUnderCos,  ///< direction of that one
   kUnderSin,
