@@ -19,8 +19,6 @@ enum LinkTerm : std::size_t {
   kLinkColor,    ///< how much another colour one strand has than the other, in any light
   kLinkDepth,    ///< log(1 + r^2 / 2), r: how far the depths on both sides are from one smooth
                  ///< strand, over what noise makes of it
-  kLinkOffLine,  ///< [0, 1] half of each end at which a line of the field was cut and that the link
-                 ///< does not join with the line's other part
   kLinkHeard,  ///< how likely one of both ends goes on elsewhere, by the reading of the mask alone
   kLinkTerms
 };
@@ -40,15 +38,14 @@ using StopTerms = std::array<float, kStopTerms>;
 /// right one of all links is to be the likeliest; colour from the other fit, before it was compared
 /// in any light; depth, whose fit says nothing, on scenes 3000000 to 3000599 by `flowdlo-lab
 /// reading-report`.
-inline constexpr LinkTerms kOneRopeLinks{1.0F, 1.05F, 0.95F, 2.0F, 3.4F, 0.8F, 0.3F, 0.0F, 0.0F};
+inline constexpr LinkTerms kOneRopeLinks{1.0F, 1.05F, 0.95F, 2.0F, 3.4F, 0.8F, 0.3F, 0.0F};
 
 /// Where a rope may as well end. Fitted by the same with `--first 3200000 --scenes 200 --several
 /// 700`, as what stops cost; depth, whose fit says nothing, so that 12 cm of it outweigh a right
-/// angle. What the mask says weighs 1.0 where the fit has 0.85 and 0.7. A stop costs 0.8 where the
-/// fit has 0.1: a real rope behind a bar is parted with less than 0.6.
-inline constexpr LinkTerms kSeveralRopesLinks{1.3F, 0.8F, 0.4F, 1.05F, 1.2F,
-                                              2.4F, 0.5F, 0.0F, 1.0F};
-inline constexpr StopTerms kStopWeights{0.8F, 4.6F, 1.0F};
+/// angle. What the mask says weighs 1.0 where the fit has 0.85 and 0.7. A stop costs 1.0 where the
+/// fit has 0.1: a real rope behind a bar is parted with 0.8.
+inline constexpr LinkTerms kSeveralRopesLinks{1.3F, 0.8F, 0.4F, 1.05F, 1.2F, 2.4F, 0.5F, 1.0F};
+inline constexpr StopTerms kStopWeights{1.0F, 4.6F, 1.0F};
 
 /// And of the only rope's end at the image's border: more often it comes back than ends out there
 /// while two tips that face each other are none. Chosen on 2,000 `wide` training scenes from

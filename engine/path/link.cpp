@@ -39,7 +39,6 @@ class Linker {
   Linker(const StrandEnd& from, const StrandEnd& to, const Cover& cover, const LinkConfig& config)
       : from_(from), to_(to), cover_(cover), config_(config), w_(config.scale_px) {
     fit_[kLinkColor] = color_misfit(from.look, to.look);
-    fit_[kLinkOffLine] = config.off_line;
     fit_[kLinkHeard] = config.elsewhere;
     fit_[kLinkDepth] = depth_misfit(from, to, w_, cover.focal_px());
   }

@@ -24,7 +24,6 @@ struct LinkConfig {
   LinkTerms weights{};
   float scale_px = 1;   ///< the rope's width, in which lengths are measured
   float trust = 1;      ///< [0, 1] in the directions of both ends
-  float off_line = 0;   ///< kLinkOffLine
   float elsewhere = 0;  ///< kLinkHeard
 };
 

@@ -45,19 +45,12 @@ const LinkTerms& weights_of(const Strands& strands) {
   return strands.several ? kSeveralRopesLinks : kOneRopeLinks;
 }
 
-// kLinkOffLine.
-float off_line(const StrandEnd& from, const StrandEnd& to) {
-  if (from.line_cut == to.line_cut) return 0;
-  return (from.line_cut >= 0 ? 0.5F : 0.0F) + (to.line_cut >= 0 ? 0.5F : 0.0F);
-}
-
 LinkConfig config_between(int from, int to, const Strands& strands, const LinkTerms& weights,
                           float elsewhere) {
   const auto shorter = static_cast<float>(
       std::min(strands.list[from / 2].points_px.size(), strands.list[to / 2].points_px.size()));
   const float scale_px = scale_between(strands.end(from), strands.end(to), strands);
-  return {weights, scale_px, std::min(1.0F, shorter / (kKnownWidths * scale_px)),
-          off_line(strands.end(from), strands.end(to)), elsewhere};
+  return {weights, scale_px, std::min(1.0F, shorter / (kKnownWidths * scale_px)), elsewhere};
 }
 
 // No link costs more than leaving out what lies beyond it.

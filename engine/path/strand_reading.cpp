@@ -98,9 +98,8 @@ std::vector<Place> joins(const std::vector<Stretch>& stretches, float width_px) 
 }
 
 // Two strands that cross flatly look like one that goes on, and one that ends: which is which is
-// for the search, which knows what was one (`Stretch::cuts`). So a stretch is cut wherever another
-// one's end runs into it flatly, without half a width to either side, which bends from the one to
-// the other.
+// for the search. So a stretch is cut wherever another one's end runs into it flatly, without half
+// a width to either side, which bends from the one to the other.
 std::vector<Stretch> cut_at_joins(const std::vector<Stretch>& stretches, float width_px) {
   std::vector<std::vector<std::size_t>> cuts(stretches.size());
   for (const Place& place : joins(stretches, width_px)) {
@@ -109,27 +108,22 @@ std::vector<Stretch> cut_at_joins(const std::vector<Stretch>& stretches, float w
   const auto least = static_cast<std::size_t>(std::max(2.0F, width_px));
   const std::size_t half = least / 2;
   std::vector<Stretch> result;
-  int last_cut = -1;
   for (std::size_t s = 0; s < stretches.size(); ++s) {
     const Points& points = stretches[s].points_px;
     std::sort(cuts[s].begin(), cuts[s].end());
     std::size_t first = 0;
-    int cut_before = -1;
     for (const std::size_t cut : cuts[s]) {
       if (cut < first + half + least) continue;
       Stretch& part = result.emplace_back();
       part.points_px.assign(points.begin() + static_cast<std::ptrdiff_t>(first),
                             points.begin() + static_cast<std::ptrdiff_t>(cut - half));
       part.tips[0] = first == 0 ? stretches[s].tips[0] : 0;
-      part.cuts = {cut_before, ++last_cut};
-      cut_before = last_cut;
       first = cut + half;
     }
     Stretch& rest = result.emplace_back(stretches[s]);
     rest.points_px.erase(rest.points_px.begin(),
                          rest.points_px.begin() + static_cast<std::ptrdiff_t>(first));
     if (first > 0) rest.tips[0] = 0;
-    rest.cuts[0] = cut_before;
   }
   return result;
 }

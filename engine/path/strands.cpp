@@ -272,7 +272,6 @@ Strands make_strands(const std::vector<Stretch>& stretches, float width_px, cons
         measure_end(points, region, frame, cover, strands.scale_px, end);
       }
       end.tip_seen = stretch.tips[side];
-      end.line_cut = stretch.cuts[side];
       look_at_end(points, region, frame, strands.scale_px, seen, end);
       std::reverse(points.begin(), points.end());
     }

@@ -29,7 +29,6 @@ struct StrandEnd {
   float goes_on = 0;              ///< [0, 1] how likely another reading goes on to another strand
   float end_cost = 0;             ///< energy that a path pays that ends here
   EndLook look{};                 ///< of the strand near it
-  int line_cut = -1;              ///< the cut of a field's line that made it and one other; or -1
   int crossing = -1;              ///< the crossing it runs into; -1: a tip
   int node = -1;                  ///< the graph's node there
   Eigen::Vector2f fork_px{0, 0};  ///< middle of the points of all ends at that node
@@ -79,7 +78,6 @@ inline constexpr float kMinorWidths = 1.5F;
 struct Stretch {
   std::vector<Eigen::Vector2f> points_px;  ///< about one pixel apart, two at least
   std::array<float, 2> tips{0, 0};         ///< [0, 1] how much like the rope's own end each looks
-  std::array<int, 2> cuts{-1, -1};         ///< StrandEnd::line_cut of each end
   bool closed = false;
 };
 

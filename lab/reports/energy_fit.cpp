@@ -321,8 +321,8 @@ Result<Outcome> measure(synth::Split split, const std::string& part, std::uint64
 }
 
 const std::array<const char*, kTerms> kNames{
-    "link: long",   "bend",      "bend of a stump", "open",   "unshown", "color",       "depth",
-    "off the line", "elsewhere", "stop: start",     "unseen", "goes on", "start of one"};
+    "link: long", "bend",      "bend of a stump", "open",   "unshown", "color",
+    "depth",      "elsewhere", "stop: start",     "unseen", "goes on", "start of one"};
 
 struct Options {
   strand::SceneRange range;
