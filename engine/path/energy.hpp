@@ -47,10 +47,10 @@ inline constexpr LinkTerms kOneRopeLinks{1.0F, 1.05F, 0.95F, 2.0F, 3.4F, 0.8F, 0
 inline constexpr LinkTerms kSeveralRopesLinks{1.3F, 0.8F, 0.4F, 1.05F, 1.2F, 2.4F, 0.5F, 1.0F};
 inline constexpr StopTerms kStopWeights{1.0F, 4.6F, 1.0F};
 
-/// And of the only rope's end at the image's border: more often it comes back than ends out there
-/// while two tips that face each other are none. Chosen on 2,000 `wide` training scenes from
-/// 5200000 on by `flowdlo-lab reading-report`: 0 is worse by 0.015 cm (the best of the priors by
-/// 0.027), 1.5 and 4 are within 0.003.
+/// And of the only rope's end at the image's border. Where its tips show, it comes back into the
+/// image; without this price its tips would be joined and it would end at the border. Chosen on
+/// 2,000 `wide` training scenes from 5200000 on by `flowdlo-lab reading-report`: 0 is worse by
+/// 0.015 cm (the best of the priors by 0.027), 1.5 and 4 are within 0.003.
 inline constexpr float kLeavesEnergy = 2.5F;
 
 /// Of each width of a strand that a path leaves out. Chosen on `wide` training scenes 3000500 to

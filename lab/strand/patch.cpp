@@ -85,10 +85,12 @@ std::ptrdiff_t held(Iterator first, Iterator last, const FrameFolder& folder) {
 /// A strand whose held ends are where they are seen last: there a rope ends for all who look.
 Strand without_held(Strand strand, const FrameFolder& folder) {
   auto& points = strand.points;
-  if (strand.ends)
+  if (strand.ends) {
     points.erase(points.end() - held(points.rbegin(), points.rend(), folder), points.end());
-  if (strand.begins)
+  }
+  if (strand.begins) {
     points.erase(points.begin(), points.begin() + held(points.begin(), points.end(), folder));
+  }
   return strand;
 }
 

@@ -60,15 +60,17 @@ std::optional<Patch> get(survey::Unpacker& from) {
 
 constexpr std::string_view kTouching = "ends-touch";
 
-/// The next scene from a place of `scene`'s own on that shows a ring whose ends touch.
+/// The first scene whose ring has ends that touch, of as many as `scene` has for itself: one in
+/// twelve is such a ring.
 std::uint64_t touching_index(std::uint64_t seed, std::uint64_t scene) {
-  constexpr std::uint64_t kAhead = 256;  // of which each is one in twelve times
-  std::uint64_t index = kAhead * scene;
-  for (std::uint64_t i = 1; i < kAhead; ++i, ++index) {
+  constexpr std::uint64_t kForEach = 256;
+  const auto touches = [&](std::uint64_t index) {
     const auto scenario =
         synth::scenario_of(synth::Split::kWide, synth::Part::kTraining, seed, index);
-    if (scenario && *scenario == kTouching) break;
-  }
+    return scenario && *scenario == kTouching;
+  };
+  std::uint64_t index = kForEach * scene;
+  while (!touches(index) && index + 1 < kForEach * (scene + 1)) ++index;
   return index;
 }
 

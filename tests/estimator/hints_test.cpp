@@ -85,19 +85,18 @@ class Hinted : public ::testing::Test {
     return estimate ? Error{ErrorCode::kInternal, "accepted"} : estimate.error();
   }
 
-  WaveFrame wave_;
-  Star star_;
-
- private:
   /// Nodes stay where a prior has them, so that they tell which one it is.
-  static Estimator make() {
+  static Estimator make(FieldChoice field = FieldChoice::kStrands) {
     auto estimator = Estimator::create({.weights = FLOWDLO_DEFAULT_WEIGHTS,
                                         .device = "cpu",
                                         .quality = Quality::kFast,
-                                        .field = FieldChoice::kStrands});
+                                        .field = field});
     if (!estimator) throw std::runtime_error(estimator.error().message);
     return *std::move(estimator);
   }
+
+  WaveFrame wave_;
+  Star star_;
   Estimator estimator_ = make();
 };
 
@@ -209,17 +208,17 @@ TEST_F(Hinted, EndsFarFromTheRopeDoNoHarm) {
 }
 
 TEST_F(Hinted, AFrameThatLeavesItOpenFollowsTheFrameBefore) {
+  estimator_ = make(FieldChoice::kOff);  // by the mask alone all its arms are alike
   const Estimate plain = of(star_.frame());
-  int ways = 0;  // elsewhere
+  int followed = 0;  // of the ways elsewhere; the gate may be sure that one of them is wrong
   for (const Alternative& elsewhere : plain.alternatives) {
     if (geometry::mean_distance(elsewhere.nodes, plain.nodes) <= 0.02) continue;
     const Estimate after = of(star_.frame(), {.previous = elsewhere.nodes});
     const bool follows = geometry::mean_distance(after.nodes, elsewhere.nodes) < 0.005;
-    EXPECT_TRUE(follows);
     EXPECT_EQ(after.switched, follows);
-    ++ways;
+    followed += follows ? 1 : 0;
   }
-  EXPECT_GE(ways, 1);
+  EXPECT_GE(followed, 2);
   EXPECT_FALSE(of(star_.frame(), {.previous = plain.nodes}).switched);
 }
 
