@@ -3,7 +3,7 @@
 namespace flowdlo::field {
 
 Axes axes(const StrandField& seen) {
-  Axes result{axis_lines(seen.channels), width_px(seen), FieldView(seen)};
+  Axes result{axis_lines(seen.channels), width_px(seen), FieldView(seen), seen.links};
   for (AxisLine& line : result.lines) {
     for (Eigen::Vector2f& point : line.points_px) point = seen.region.to_frame(point);
   }

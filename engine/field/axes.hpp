@@ -1,6 +1,7 @@
 // Axes: the strands that a field shows, as lines of the frame.
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "field/axis_line.hpp"
@@ -14,6 +15,7 @@ struct Axes {
   std::vector<AxisLine> lines;  ///< the clearest first; points less than a pixel of the field apart
   float width_px = 0;           ///< of the rope
   FieldView view{};             ///< what the field shows beside the lines
+  std::shared_ptr<const weights::LinkWeights> links{};  ///< what links them; or null
 };
 
 [[nodiscard]] Axes axes(const StrandField& seen);

@@ -45,6 +45,13 @@ class Network {
                                      const PlanesOf& planes_of, threads::Pool* pool = nullptr);
   [[nodiscard]] Result<Channels> see(const Planes& input, const BlockMap& blocks);
 
+  /// What links the strands that it shows; null where its file has none.
+  [[nodiscard]] std::shared_ptr<const weights::LinkWeights> links() const {
+    return weights_->links
+               ? std::shared_ptr<const weights::LinkWeights>(weights_, &*weights_->links)
+               : nullptr;
+  }
+
   /// Milliseconds of the last program that ran, by stage.
   [[nodiscard]] std::vector<std::pair<std::string, double>> stage_times_ms() const {
     return program_->stage_times_ms();

@@ -106,7 +106,7 @@ Result<void> look_at_near_parts(const Frame& frame, const image::Rect& box, Netw
   if (blocks->blocks.empty()) return {};
   auto channels = look_at(frame, *view, blocks, network, pool);
   if (!channels) return channels.error();
-  blend(seen, {view->region, *std::move(channels)}, parts, octaves);
+  blend(seen, {view->region, *std::move(channels), nullptr}, parts, octaves);
   return {};
 }
 
@@ -132,7 +132,7 @@ Result<StrandField> see(const Frame& frame, float rope_width_px, Network& networ
     if (look > 0 && view->region.size.area() <= result.region.size.area()) break;
     auto seen = look_at(frame, *view, view->blocks, network, pool);
     if (!seen) return seen.error();
-    result = {view->region, *std::move(seen)};
+    result = {view->region, *std::move(seen), network.links()};
     const float share = seen_width(result.channels);
     if (share >= kNarrow) break;
     width_px *= share;

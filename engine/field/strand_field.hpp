@@ -1,6 +1,8 @@
 // StrandField: what a small network sees of each pixel around the mask.
 #pragma once
 
+#include <memory>
+
 #include "field/network.hpp"
 #include "field/region.hpp"
 #include "flowdlo/frame.hpp"
@@ -10,6 +12,7 @@ namespace flowdlo::field {
 struct StrandField {
   Region region;
   Channels channels;  ///< of the region; no rope far from the mask
+  std::shared_ptr<const weights::LinkWeights> links{};  ///< what links its strands; or null
 };
 
 /// The rope's width in pixels of the frame, as the field has it in the middle; that of the region

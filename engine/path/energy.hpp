@@ -1,6 +1,6 @@
-// Energy: what a way through strands pays, term by term, whether a field shows them or the mask
-// alone. Free of units: the
-// negative logarithm of how likely each choice is (up to what all choices share).
+// Energy: what a way through strands pays, term by term, where no network says it: strands of the
+// mask alone, and which few links of a field's strands path/link_network is asked about. Free of
+// units: the negative logarithm of how likely each choice is (up to what all choices share).
 #pragma once
 
 #include <array>
@@ -57,15 +57,17 @@ inline constexpr float kLeavesEnergy = 2.5F;
 /// 3000749 by `flowdlo-lab reading-report`: 1 is worse by 0.1 cm, 4 by 0.02.
 inline constexpr float kLeftOutEnergy = 2.5F;
 
-/// And of one more closed rope, which has no ends to pay for. Chosen on drawn and rendered training
-/// scenes (`flowdlo-lab ropes-report`): 1 is worse.
-inline constexpr float kRingEnergy = 0.5F;
-
 /// And, among several ropes, of two links that meet and do not cross (path/touches): strands that
 /// come together rather cross than touch, and what looks like a ring beside a rope is a loop of it.
 /// Chosen on drawn scenes without depth, drawn and rendered ones (docs/ropes.md): 0.25 and 2 are
 /// worse.
 inline constexpr float kTouchEnergy = 1.0F;
+
+/// And, where there may be several ropes, of one more that has two ends, beside what path/
+/// link_network says of these: the scenes it is fitted to hold more ropes than most frames do. At 0
+/// a real rope behind a dark bar is as likely two; 0.2 to 0.6 are alike on rendered and drawn
+/// training scenes (docs/field.md).
+inline constexpr float kOneMoreEnergy = 0.4F;
 
 /// How much the end of a strand of the mask looks like the rope's own, where no field says it: a
 /// tip in plain sight; one at which an occluder begins, or beyond which another strand passes. An

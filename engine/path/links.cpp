@@ -3,7 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <utility>
+
+#include "path/link_evidence.hpp"
+#include "path/link_network.hpp"
 
 namespace flowdlo::path {
 namespace {
@@ -34,13 +38,6 @@ std::vector<int> open_ends(const Strands& strands) {
   return ends;
 }
 
-// What lengths between two ends are measured in: how wide the strands are there, for ropes differ,
-// and so do the near and the far end of one.
-float scale_between(const StrandEnd& a, const StrandEnd& b, const Strands& strands) {
-  if (a.look.width_px <= 0 || b.look.width_px <= 0) return strands.scale_px;
-  return std::max(kLeastScalePx, 0.5F * (a.look.width_px + b.look.width_px));
-}
-
 const LinkTerms& weights_of(const Strands& strands) {
   return strands.several ? kSeveralRopesLinks : kOneRopeLinks;
 }
@@ -59,6 +56,108 @@ float most_for(int a, int b, const Strands& strands) {
                    left_out_energy(strands.list[b / 2], strands)});
 }
 
+// Pairs of ends that a link may join; the short ones first: most others then cost more than what is
+// kept.
+std::vector<Nearness> near_pairs(const Strands& strands) {
+  const LinkTerms& weights = weights_of(strands);
+  const std::vector<int> ends = open_ends(strands);
+  std::vector<Nearness> pairs;
+  for (std::size_t i = 0; i < ends.size(); ++i) {
+    for (std::size_t j = i + 1; j < ends.size(); ++j) {
+      if (ends[i] / 2 == ends[j] / 2 && !strands.several) continue;
+      const StrandEnd& a = strands.end(ends[i]);
+      const StrandEnd& b = strands.end(ends[j]);
+      const float apart = (a.point_px - b.point_px).norm();
+      const float least = least_energy(apart, weights, scale_between(a, b, strands));
+      if (strands.several && a.leaves && b.leaves) continue;
+      const float most = most_for(ends[i], ends[j], strands);
+      if (least >= most) continue;
+      pairs.push_back({std::min(ends[i], ends[j]), std::max(ends[i], ends[j]), least, most});
+    }
+  }
+  std::stable_sort(pairs.begin(), pairs.end(),
+                   [](const Nearness& a, const Nearness& b) { return a.least < b.least; });
+  return pairs;
+}
+
+bool cheaper(const Bond& a, const Bond& b) {
+  return a.cost != b.cost ? a.cost < b.cost : a.to < b.to;
+}
+
+// The few links of each end that cost least.
+class Offers {
+ public:
+  Offers(const Strands& strands, const Cover& cover, const Opinion& opinion)
+      : cheapest_(2 * strands.list.size()) {
+    const LinkTerms& weights = weights_of(strands);
+    for (const Nearness& pair : near_pairs(strands)) {
+      const float most = std::min(pair.most, std::max(kept(pair.from), kept(pair.to)));
+      if (pair.least >= most) continue;
+      const Link link = link_between(pair.from, pair.to, strands, cover, weights, most,
+                                     opinion.against(pair.from, pair.to));
+      if (link.energy >= most) continue;
+      keep(pair.from, pair.to, link.energy);
+      keep(pair.to, pair.from, link.energy);
+      links_.try_emplace(std::minmax(pair.from, pair.to), link);
+    }
+  }
+
+  [[nodiscard]] const std::vector<std::vector<Bond>>& cheapest() const { return cheapest_; }
+  // From the lower one of both ends to the other.
+  [[nodiscard]] const Link& link(int a, int b) const { return links_.at(std::minmax(a, b)); }
+
+ private:
+  [[nodiscard]] float kept(int end) const {
+    return cheapest_[end].size() < kLinksAnEnd ? std::numeric_limits<float>::max()
+                                               : cheapest_[end].back().cost;
+  }
+  void keep(int end, int other, float energy) {
+    auto& list = cheapest_[end];
+    const Bond bond{other, energy};
+    list.insert(std::upper_bound(list.begin(), list.end(), bond, cheaper), bond);
+    if (list.size() > kLinksAnEnd) list.pop_back();
+  }
+
+  std::vector<std::vector<Bond>> cheapest_;
+  std::map<std::pair<int, int>, Link> links_;
+};
+
+float going_on(const Opinion& opinion, int end) {
+  return opinion.goes_on.empty() ? 0 : opinion.goes_on[end];
+}
+
+Prices by_energy(const Offers& offers, const Strands& strands, const Opinion& opinion) {
+  Prices prices{offers.cheapest(), {}};
+  for (int end = 0; end < static_cast<int>(prices.bonds.size()); ++end) {
+    const StopTerms terms = stop_terms(strands.end(end), going_on(opinion, end));
+    prices.stops.push_back(energy_of(terms, kStopWeights));
+  }
+  return prices;
+}
+
+Prices by_network(const Offers& offers, const Strands& strands, const Cover& cover,
+                  const Opinion& opinion) {
+  const LinkNetwork network(*strands.links);
+  Prices prices{offers.cheapest(), {}};
+  const auto count = static_cast<int>(prices.bonds.size());
+  std::vector<EndFeatures> ends;
+  for (int end = 0; end < count; ++end) {
+    ends.push_back(end_features(end, strands, cover, going_on(opinion, end)));
+    const float more = strands.several ? kOneMoreEnergy / 2 : 0;
+    prices.stops.push_back(network.stop(ends.back()) + more);
+  }
+  for (int end = 0; end < count; ++end) {
+    for (Bond& bond : prices.bonds[end]) {
+      const auto [a, b] = std::minmax(end, bond.to);
+      const PairFeatures pair = pair_features(a, b, offers.link(a, b), strands, cover);
+      bond.cost = network.link(pair, {ends[a], side_features(a, b, strands, cover)},
+                               {ends[b], side_features(b, a, strands, cover)});
+    }
+    std::stable_sort(prices.bonds[end].begin(), prices.bonds[end].end(), cheaper);
+  }
+  return prices;
+}
+
 }  // namespace
 
 Link link_between(int from, int to, const Strands& strands, const Cover& cover,
@@ -73,49 +172,13 @@ std::vector<Eigen::Vector2f> points_between(int from, int to, const Strands& str
                      config_between(from, to, strands, weights_of(strands), 0));
 }
 
-std::vector<std::vector<Bond>> make_links(const Strands& strands, const Region& region,
-                                          const Frame& frame, const Opinion& opinion) {
-  const LinkTerms& weights = weights_of(strands);
+Prices prices_of(const Strands& strands, const Region& region, const Frame& frame,
+                 const Opinion& opinion) {
   const Cover cover(region, frame, strands.width_px, strands.seen);
-  const std::vector<int> ends = open_ends(strands);
-  std::vector<Nearness> pairs;
-  for (std::size_t i = 0; i < ends.size(); ++i) {
-    for (std::size_t j = i + 1; j < ends.size(); ++j) {
-      if (ends[i] / 2 == ends[j] / 2 && !strands.several) continue;
-      const StrandEnd& a = strands.end(ends[i]);
-      const StrandEnd& b = strands.end(ends[j]);
-      const float apart = (a.point_px - b.point_px).norm();
-      const float least = least_energy(apart, weights, scale_between(a, b, strands));
-      if (strands.several && a.leaves && b.leaves) continue;
-      const float most = most_for(ends[i], ends[j], strands);
-      if (least < most) pairs.push_back({ends[i], ends[j], least, most});
-    }
-  }
-  // The short ones first: most others then cost more than what is kept.
-  std::stable_sort(pairs.begin(), pairs.end(),
-                   [](const Nearness& a, const Nearness& b) { return a.least < b.least; });
-  std::vector<std::vector<Bond>> links(2 * strands.list.size());
-  const auto cheaper = [](const Bond& a, const Bond& b) {
-    return a.cost != b.cost ? a.cost < b.cost : a.to < b.to;
-  };
-  const auto kept = [&](int end) {
-    return links[end].size() < kLinksAnEnd ? std::numeric_limits<float>::max()
-                                           : links[end].back().cost;
-  };
-  for (const Nearness& pair : pairs) {
-    const float most = std::min(pair.most, std::max(kept(pair.from), kept(pair.to)));
-    if (pair.least >= most) continue;
-    const Link link = link_between(pair.from, pair.to, strands, cover, weights, most,
-                                   opinion.against(pair.from, pair.to));
-    if (link.energy >= most) continue;
-    for (const auto& [end, other] : {std::pair{pair.from, pair.to}, {pair.to, pair.from}}) {
-      auto& list = links[end];
-      const Bond bond{other, link.energy};
-      list.insert(std::upper_bound(list.begin(), list.end(), bond, cheaper), bond);
-      if (list.size() > kLinksAnEnd) list.pop_back();
-    }
-  }
-  return links;
+  const Offers offers(strands, cover, opinion);
+  const bool learned = strands.seen != nullptr && strands.links != nullptr;
+  return learned ? by_network(offers, strands, cover, opinion)
+                 : by_energy(offers, strands, opinion);
 }
 
 }  // namespace flowdlo::path

@@ -1,4 +1,4 @@
-// Links: which ends of strands may be joined, and at what energy.
+// Links: which ends of strands may be joined, where a rope may end, and at what energy.
 #pragma once
 
 #include <limits>
@@ -16,16 +16,22 @@ struct Bond {
   float cost = 0;  ///< the link's energy
 };
 
-/// [2 * strands] the bonds of each end, cheapest first; symmetric up to the cut at a few an end.
-/// Where there may be several ropes, a link may lead from one end of a strand to its other one, for
-/// there may be rings, but none from one end at the image's border to another: what comes back is
-/// another rope.
-[[nodiscard]] std::vector<std::vector<Bond>> make_links(const Strands& strands,
-                                                        const Region& region, const Frame& frame,
-                                                        const Opinion& opinion = {});
+/// What a way through strands pays.
+struct Prices {
+  /// [2 * strands] the bonds of each end, cheapest first; symmetric up to the cut at a few an end.
+  std::vector<std::vector<Bond>> bonds;
+  std::vector<float> stops;  ///< [2 * strands] energy of a rope's end there
+};
 
-/// The link between two ends, whatever it costs: what the weights are fitted to. `elsewhere` is
-/// kLinkHeard.
+/// By heed of another reading's opinion. Where a strand field shows the strands and has a network
+/// that links them, that says what each costs; else energy.hpp does, which chooses in any case
+/// which few links are asked about, and how they run. Where there may be several ropes, a link may
+/// lead from one end of a strand to its other one, for there may be rings, but none from one end at
+/// the image's border to another: what comes back is another rope.
+[[nodiscard]] Prices prices_of(const Strands& strands, const Region& region, const Frame& frame,
+                            const Opinion& opinion = {});
+
+/// The link between two ends by energy.hpp, whatever it costs. `elsewhere` is kLinkHeard.
 [[nodiscard]] Link link_between(int from, int to, const Strands& strands, const Cover& cover,
                                 const LinkTerms& weights,
                                 float most = std::numeric_limits<float>::max(),

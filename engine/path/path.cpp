@@ -194,7 +194,7 @@ Result<Traversals> trace(const Frame& frame, const TraceConfig& config) {
 Result<RopePaths> trace_ropes(const Frame& frame, int ropes) {
   const Read<RopePaths> read = [&](const Strands& strands, const Region& region,
                                    const Frame& seen) {
-    return rope_paths(strands, make_links(strands, region, seen), region, seen, ropes);
+    return rope_paths(strands, prices_of(strands, region, seen), region, seen, ropes);
   };
   return guard::guarded("path", [&] {
     return trace_mask(frame, nullptr, ropes, read, [&](RopePaths parted, RopePaths whole) {

@@ -73,11 +73,11 @@ std::vector<Eigen::Vector2f> places_of(const std::vector<Eigen::Vector2f>& direc
 std::vector<Path> ranked_paths(const Strands& strands, const Region& region, const Frame& frame,
                                const TraceConfig& config) {
   std::vector<Path> paths;
-  const auto bonds = make_links(strands, region, frame);
+  const Prices prices = prices_of(strands, region, frame);
   const int candidates = config.rope_length_m > 0 ? kLengthCandidates : 2;
   const int count = std::max(candidates, config.alternatives + 1);
   const auto ends = places_of(config.ends, region, frame.intrinsics);
-  for (const Traversal& traversal : search(strands, bonds, count, ends)) {
+  for (const Traversal& traversal : search(strands, prices, count, ends)) {
     Path path = assemble(traversal, strands, region, frame);
     if (path.points_px.size() >= 2) paths.push_back(std::move(path));
   }

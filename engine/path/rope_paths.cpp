@@ -101,9 +101,9 @@ Error no_set(int ropes, const Strands& strands) {
 
 }  // namespace
 
-Result<RopePaths> rope_paths(const Strands& strands, const std::vector<std::vector<Bond>>& bonds,
-                             const Region& region, const Frame& frame, int ropes) {
-  const auto sets = search_sets(strands, bonds, ropes, kSets);
+Result<RopePaths> rope_paths(const Strands& strands, const Prices& prices, const Region& region,
+                             const Frame& frame, int ropes) {
+  const auto sets = search_sets(strands, prices, ropes, kSets);
   if (sets.empty()) return no_set(ropes, strands);
   RopePaths result;
   result.rope_width_px = strands.width_px;

@@ -10,10 +10,9 @@
 
 namespace flowdlo::path {
 
-/// As `trace_ropes`, of strands and bonds [2 * strands] that are known; places are those of the
+/// As `trace_ropes`, of strands and prices that are known; places are those of the
 /// frame that `region` was cut out of.
-[[nodiscard]] Result<RopePaths> rope_paths(const Strands& strands,
-                                           const std::vector<std::vector<Bond>>& bonds,
+[[nodiscard]] Result<RopePaths> rope_paths(const Strands& strands, const Prices& prices,
                                            const Region& region, const Frame& frame, int ropes);
 
 }  // namespace flowdlo::path

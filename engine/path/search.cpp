@@ -169,19 +169,9 @@ class Ends {
   float all_left_out_ = 0;  // what it costs to use no strand
 };
 
-// [2 * strands] what it costs a rope to end at each.
-std::vector<float> stops_of(const Strands& strands) {
-  std::vector<float> stops;
-  for (int end = 0; end < 2 * static_cast<int>(strands.list.size()); ++end) {
-    stops.push_back(strands.end(end).end_cost);
-  }
-  return stops;
-}
-
-// The same of the only rope, some ends of which may be known.
-std::vector<float> only_stops_of(const Strands& strands,
+// [2 * strands] what it costs the only rope to end at each; some of its ends may be known.
+std::vector<float> only_stops_of(const Strands& strands, std::vector<float> stops,
                                  const std::vector<Eigen::Vector2f>& known) {
-  std::vector<float> stops = stops_of(strands);
   for (int end = 0; end < static_cast<int>(stops.size()); ++end) {
     const float cost = stops[end] + (strands.end(end).leaves ? kLeavesEnergy : 0);
     float near = 0;
@@ -220,15 +210,13 @@ std::vector<int> key_of(const Traversal& way, const Strands& strands) {
   return std::min(forwards, backwards);
 }
 
-std::vector<RopeSet> search_sets(const Strands& strands,
-                                 const std::vector<std::vector<Bond>>& bonds, int ropes,
+std::vector<RopeSet> search_sets(const Strands& strands, const Prices& prices, int ropes,
                                  std::size_t count) {
-  const Ends ends(strands, bonds, stops_of(strands), true);
+  const Ends ends(strands, prices.bonds, prices.stops, true);
   const auto wanted = static_cast<std::size_t>(ropes);
   std::vector<RopeSet> found;
   for (RopeSet& set : ropes > 0 ? ends.sets_around(wanted) : ends.sets(0, kPairings)) {
     if (ropes > 0 && set.ways.size() != wanted) continue;
-    for (const Traversal& way : set.ways) set.cost += way.closed ? kRingEnergy : 0;
     set.cost += kTouchEnergy * static_cast<float>(touches(set, strands));
     found.push_back(std::move(set));
   }
@@ -236,9 +224,9 @@ std::vector<RopeSet> search_sets(const Strands& strands,
   return found;
 }
 
-std::vector<Traversal> search(const Strands& strands, const std::vector<std::vector<Bond>>& bonds,
-                              int count, const std::vector<Eigen::Vector2f>& ends) {
-  const Ends paired(strands, bonds, only_stops_of(strands, ends), false);
+std::vector<Traversal> search(const Strands& strands, const Prices& prices, int count,
+                              const std::vector<Eigen::Vector2f>& ends) {
+  const Ends paired(strands, prices.bonds, only_stops_of(strands, prices.stops, ends), false);
   std::map<std::vector<int>, Traversal> found;  // the cheapest of each kind
   for (const RopeSet& set : paired.sets_around(1)) {
     for (const Traversal& way : set.ways) {

@@ -24,14 +24,13 @@ struct RopeSet {
 };
 
 /// At most `count` sets of `ropes` ways, or with 0 of any number, cheapest first; empty where there
-/// are none. A set pays for its bonds, for where its ways end, for what it leaves out, for each
-/// closed way kRingEnergy, and kTouchEnergy where two bonds touch. Every end of a
-/// strand has one bond at most and every strand is either used or left out, so that a set is a
-/// pairing of ends (`cheapest_pairings`): exact for any number of ropes as long as that is. A
-/// number that is asked for comes from the price of one more rope at which it is the cheapest one;
-/// one that is so at no price is looked for on both sides of where it is passed. Deterministic.
-[[nodiscard]] std::vector<RopeSet> search_sets(const Strands& strands,
-                                               const std::vector<std::vector<Bond>>& bonds,
+/// are none. A set pays for its bonds, for where its ways end, for what it leaves out, and
+/// kTouchEnergy where two bonds touch. Every end of a strand has one bond at most and every strand
+/// is either used or left out, so that a set is a pairing of ends (`cheapest_pairings`): exact for
+/// any number of ropes as long as that is. A number that is asked for comes from the price of one
+/// more rope at which it is the cheapest one; one that is so at no price is looked for on both sides
+/// of where it is passed. Deterministic.
+[[nodiscard]] std::vector<RopeSet> search_sets(const Strands& strands, const Prices& prices,
                                                int ropes, std::size_t count);
 
 /// At most `count` ways of one rope that has two ends, cheapest first; a way and its reverse are
@@ -39,8 +38,7 @@ struct RopeSet {
 /// bond that costs as much as two ends and one more rope is never made, so that the dearest ways
 /// may not be among them. Where `ends` of the rope are known, in the strands' pixels, an end there
 /// costs nothing, and one elsewhere as much as it would without them and kElsewhere more.
-[[nodiscard]] std::vector<Traversal> search(const Strands& strands,
-                                            const std::vector<std::vector<Bond>>& bonds, int count,
+[[nodiscard]] std::vector<Traversal> search(const Strands& strands, const Prices& prices, int count,
                                             const std::vector<Eigen::Vector2f>& ends = {});
 
 /// The strands by which ways are told apart, in an order that is the same for a way and its

@@ -173,10 +173,14 @@ Result<Answer> trace_axes(const Frame& frame, const field::Axes& axes, const Tra
 
 }  // namespace
 
-Strands strands_of(const Frame& frame, const field::Axes& axes, const Region& region) {
+Strands strands_of(const Frame& frame, const field::Axes& axes, const Region& region,
+                   bool several) {
   auto stretches = cut_at_joins(stretches_of(axes, region), axes.width_px);
   see_tips(stretches, axes, region);
-  return make_strands(stretches, axes.width_px, region, frame, axes.view);
+  Strands strands = make_strands(stretches, axes.width_px, region, frame, axes.view);
+  strands.several = several;
+  strands.links = axes.links.get();
+  return strands;
 }
 
 Result<Traversals> trace_strands(const Frame& frame, const field::Axes& axes,
@@ -191,26 +195,16 @@ Result<Traversals> trace_strands(const Frame& frame, const field::Axes& axes,
   return trace_axes<Traversals>(frame, axes, trace);
 }
 
-void heed(Strands& strands, const Opinion& opinion) {
-  for (std::size_t i = 0; i < opinion.goes_on.size(); ++i) {
-    StrandEnd& end = strands.list[i / 2].ends[i % 2];
-    end.goes_on = opinion.goes_on[i];
-    end.end_cost = energy_of(stop_terms(end), kStopWeights);
-  }
-}
-
 Result<RopePaths> trace_ropes(const Frame& frame, const field::Axes& axes, int ropes,
                               const std::vector<RopesGuess>& guesses) {
   const auto trace = [&](const Frame& seen, const field::Axes& lines,
                          const Reduced* copy) -> Result<RopePaths> {
     const auto region = clean(seen, ropes);
     if (!region) return region.error();
-    Strands strands = strands_of(seen, lines, *region);
-    strands.several = ropes != 1;
+    const Strands strands = strands_of(seen, lines, *region, ropes != 1);
     const Opinion opinion =
         opinion_on(strands, copy == nullptr ? guesses : guesses_in(*copy, guesses), *region);
-    heed(strands, opinion);
-    return rope_paths(strands, make_links(strands, *region, seen, opinion), *region, seen, ropes);
+    return rope_paths(strands, prices_of(strands, *region, seen, opinion), *region, seen, ropes);
   };
   return trace_axes<RopePaths>(frame, axes, trace);
 }

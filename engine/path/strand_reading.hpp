@@ -18,15 +18,14 @@ namespace flowdlo::path {
 [[nodiscard]] Result<Traversals> trace_strands(const Frame& frame, const field::Axes& axes,
                                                const TraceConfig& config = {});
 
-/// The strands that a network sees in `frame`, cleaned into `region`; borrows `axes`.
-[[nodiscard]] Strands strands_of(const Frame& frame, const field::Axes& axes, const Region& region);
+/// The strands that a network sees in `frame`, cleaned into `region`, of one rope or, perhaps, of
+/// several; borrows `axes`.
+[[nodiscard]] Strands strands_of(const Frame& frame, const field::Axes& axes, const Region& region,
+                                 bool several = false);
 
 /// As `trace_ropes`, of the axes that a network sees in the frame; ropes rather go on where those
 /// `guesses` do that other readings of the frame gave.
 [[nodiscard]] Result<RopePaths> trace_ropes(const Frame& frame, const field::Axes& axes, int ropes,
                                             const std::vector<RopesGuess>& guesses = {});
-
-/// What stopping at the ends of strands costs with another reading's opinion on them.
-void heed(Strands& strands, const Opinion& opinion);
 
 }  // namespace flowdlo::path

@@ -172,13 +172,6 @@ float plain_tip(const StrandEnd& end, const Cover& cover, float scale_px) {
   return covered ? kCoveredTip : kPlainTip;
 }
 
-// What the end at the front of `points` looks like, and what it costs to stop there.
-void look_at_end(const Points& points, const Region& region, const Frame& frame, float scale_px,
-                 const field::FieldView& seen, StrandEnd& end) {
-  end.look = look_of(points, scale_px, region, frame, seen);
-  end.end_cost = energy_of(stop_terms(end), kStopWeights);
-}
-
 Strand make_strand(const Segment& segment, const Graph& graph, const Crossings& crossings,
                    const Region& region, const Frame& frame, const Strands& sizes) {
   const Cover cover(region, frame, sizes.width_px);
@@ -203,7 +196,7 @@ Strand make_strand(const Segment& segment, const Graph& graph, const Crossings& 
     }
     measure_end(points, region, frame, cover, sizes.scale_px, end);
     end.tip_seen = plain_tip(end, cover, sizes.scale_px);
-    look_at_end(points, region, frame, sizes.scale_px, {}, end);
+    end.look = look_of(points, sizes.scale_px, region, frame, {});
     std::reverse(points.begin(), points.end());
   }
   strand.covers_px = std::max(0.0F, strand.covers_px);
@@ -231,11 +224,11 @@ void find_forks(Strands& strands) {
 
 }  // namespace
 
-StopTerms stop_terms(const StrandEnd& end) {
+StopTerms stop_terms(const StrandEnd& end, float goes_on) {
   StopTerms terms{};
   terms[kStopStart] = 1;
   terms[kStopUnseen] = end.leaves ? 0 : 1 - end.tip_seen;
-  terms[kStopHeard] = end.goes_on;
+  terms[kStopHeard] = goes_on;
   return terms;
 }
 
@@ -243,6 +236,11 @@ float width_px_of(const Strand& strand, const Strands& strands) {
   const float sum = strand.ends[0].look.width_px + strand.ends[1].look.width_px;
   const bool known = strand.ends[0].look.width_px > 0 && strand.ends[1].look.width_px > 0;
   return known ? std::max(kLeastScalePx, 0.5F * sum) : strands.scale_px;
+}
+
+float scale_between(const StrandEnd& a, const StrandEnd& b, const Strands& strands) {
+  if (a.look.width_px <= 0 || b.look.width_px <= 0) return strands.scale_px;
+  return std::max(kLeastScalePx, 0.5F * (a.look.width_px + b.look.width_px));
 }
 
 float left_out_energy(const Strand& strand, const Strands& strands) {
@@ -272,7 +270,7 @@ Strands make_strands(const std::vector<Stretch>& stretches, float width_px, cons
         measure_end(points, region, frame, cover, strands.scale_px, end);
       }
       end.tip_seen = stretch.tips[side];
-      look_at_end(points, region, frame, strands.scale_px, seen, end);
+      end.look = look_of(points, strands.scale_px, region, frame, seen);
       std::reverse(points.begin(), points.end());
     }
     strand.points_px = std::move(points);

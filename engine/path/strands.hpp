@@ -9,6 +9,7 @@
 #include "path/end_look.hpp"
 #include "path/energy.hpp"
 #include "path/graph.hpp"
+#include "weights/link_weights.hpp"
 
 namespace flowdlo::path {
 
@@ -26,8 +27,6 @@ struct StrandEnd {
   bool cut = false;               ///< right behind it something nearer hides the rope
   bool leaves = false;            ///< the image ends where it does
   float tip_seen = 0;             ///< [0, 1] how much the strand field shows the rope's own end
-  float goes_on = 0;              ///< [0, 1] how likely another reading goes on to another strand
-  float end_cost = 0;             ///< energy that a path pays that ends here
   EndLook look{};                 ///< of the strand near it
   int crossing = -1;              ///< the crossing it runs into; -1: a tip
   int node = -1;                  ///< the graph's node there
@@ -58,6 +57,7 @@ struct Strands {
   bool several = false;  ///< there may be more than one rope
   const field::FieldView* seen =
       nullptr;  ///< of a strand field's: what it shows beside them; or null
+  const weights::LinkWeights* links = nullptr;  ///< and the network that links them; or null
 
   [[nodiscard]] const StrandEnd& end(int id) const { return list[id / 2].ends[id % 2]; }
 };
@@ -68,11 +68,16 @@ inline constexpr float kMinorWidths = 1.5F;
 /// How wide a strand is, by both of its ends; no less than lengths are measured in.
 [[nodiscard]] float width_px_of(const Strand& strand, const Strands& strands);
 
+/// What lengths between two ends are measured in: how wide the strands are there, for ropes differ,
+/// and so do the near and the far end of one; pixels.
+[[nodiscard]] float scale_between(const StrandEnd& a, const StrandEnd& b, const Strands& strands);
+
 /// Energy of a way that leaves the strand out.
 [[nodiscard]] float left_out_energy(const Strand& strand, const Strands& strands);
 
-/// What a path pays that ends there, and what that comes of.
-[[nodiscard]] StopTerms stop_terms(const StrandEnd& end);
+/// What a path pays that ends there, and what that comes of. `goes_on` is [0, 1] how likely another
+/// reading goes on from there to another strand.
+[[nodiscard]] StopTerms stop_terms(const StrandEnd& end, float goes_on = 0);
 
 /// A stretch of one strand as a strand field shows it: crop coordinates.
 struct Stretch {

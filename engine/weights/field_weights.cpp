@@ -49,23 +49,35 @@ int channels_of(const Fields& fields, const char* key, int most, std::vector<std
   return kChannelStep;
 }
 
-/// Whether the file says that it holds room `refine`'s network.
-bool refines_of(const Fields& fields, std::vector<std::string>& faults) {
-  const auto found = fields.find("refine");
+/// Whether the file says that it holds the network of that name beside the field's.
+bool holds(const Fields& fields, const char* key, std::string_view version,
+           std::vector<std::string>& faults) {
+  const auto found = fields.find(key);
   if (found == fields.end()) return false;
-  if (found->second == kRefineVersion) return true;
+  if (found->second == version) return true;
   faults.push_back(
-      fmt::format("metadata refine: expected \"{}\", got {}; this FlowDLO reads no other version",
-                  kRefineVersion, in_quotes(found->second)));
+      fmt::format("metadata {}: expected \"{}\", got {}; this FlowDLO reads no other version", key,
+                  version, in_quotes(found->second)));
   return false;
 }
 
-std::vector<Expected> whole_manifest(const FieldSizes& sizes, bool refines) {
-  auto expected = field_manifest(sizes);
-  if (refines) {
-    for (Expected& tensor : refine_manifest()) expected.push_back(std::move(tensor));
-  }
+/// The field's tensors, then those of the networks that the file holds beside it.
+std::vector<Expected> whole_manifest(const FieldWeights& weights) {
+  auto expected = field_manifest(weights.sizes);
+  const auto add = [&](std::vector<Expected> more) {
+    std::move(more.begin(), more.end(), std::back_inserter(expected));
+  };
+  if (weights.refine) add(refine_manifest());
+  if (weights.links) add(links_manifest());
   return expected;
+}
+
+/// The last tensors of `from`, as many as the manifest has.
+std::vector<Tensor> taken_off(std::vector<Tensor>& from, const std::vector<Expected>& manifest) {
+  const auto first = from.end() - static_cast<std::ptrdiff_t>(manifest.size());
+  std::vector<Tensor> taken(std::make_move_iterator(first), std::make_move_iterator(from.end()));
+  from.erase(first, from.end());
+  return taken;
 }
 
 }  // namespace
@@ -119,21 +131,20 @@ Result<FieldWeights> parse_field(std::span<const std::uint8_t> bytes,
   weights.sizes = {channels_of(parsed.metadata, "fine", kMostFine, faults),
                    channels_of(parsed.metadata, "middle", kMostMiddle, faults),
                    channels_of(parsed.metadata, "coarse", kMostCoarse, faults)};
-  const bool refines = refines_of(parsed.metadata, faults);
-  if (refines) weights.refine.emplace().notes = text_of(parsed.metadata, "refine_notes", faults);
+  if (holds(parsed.metadata, "refine", kRefineVersion, faults)) {
+    weights.refine.emplace().notes = text_of(parsed.metadata, "refine_notes", faults);
+  }
+  if (holds(parsed.metadata, "links", kLinksVersion, faults)) {
+    weights.links.emplace().notes = text_of(parsed.metadata, "links_notes", faults);
+  }
   weights.calibration = take_calibration(parsed.metadata, parsed.tensors, faults);
   if (!faults.empty()) return bad_weights(file, faults);
-  const auto manifest = whole_manifest(weights.sizes, refines);
+  const auto manifest = whole_manifest(weights);
   const auto matched = match(parsed.tensors, manifest, kReadable, faults);
   expect_finite(matched, faults);
   weights.tensors = decode(matched, manifest);
-  if (refines) {
-    const auto first =
-        weights.tensors.begin() + static_cast<std::ptrdiff_t>(field_manifest(weights.sizes).size());
-    weights.refine->tensors.assign(std::make_move_iterator(first),
-                                   std::make_move_iterator(weights.tensors.end()));
-    weights.tensors.erase(first, weights.tensors.end());
-  }
+  if (weights.links) weights.links->tensors = taken_off(weights.tensors, links_manifest());
+  if (weights.refine) weights.refine->tensors = taken_off(weights.tensors, refine_manifest());
   const std::string expected = text_of(parsed.metadata, "sha256", faults);
   const std::string got = digest(matched);
   if (faults.empty() && expected != got) {
@@ -153,6 +164,9 @@ Result<void> save_field(const FieldWeights& weights, const std::filesystem::path
   if (weights.refine) {
     for (const Tensor& tensor : weights.refine->tensors) tensors.push_back(&tensor);
   }
+  if (weights.links) {
+    for (const Tensor& tensor : weights.links->tensors) tensors.push_back(&tensor);
+  }
   for (const Tensor* const of : tensors) {
     const Tensor& tensor = *of;
     auto fault = finiteness_fault(tensor.name, tensor.values);
@@ -166,7 +180,7 @@ Result<void> save_field(const FieldWeights& weights, const std::filesystem::path
         {tensor.name, {tensor.shape.begin(), tensor.shape.end()}, DType::kF16, "f16", encoded[i]});
   }
   for (const StoredTensor& tensor : stored) all.push_back(&tensor);
-  const auto manifest = whole_manifest(weights.sizes, weights.refine.has_value());
+  const auto manifest = whole_manifest(weights);
   constexpr std::array kHalf{DType::kF16};
   (void)match(stored, manifest, kHalf, faults);
   if (!faults.empty()) return bad_weights(file, faults);
@@ -180,6 +194,10 @@ Result<void> save_field(const FieldWeights& weights, const std::filesystem::path
   if (weights.refine) {
     fields.emplace("refine", kRefineVersion);
     fields.emplace("refine_notes", weights.refine->notes);
+  }
+  if (weights.links) {
+    fields.emplace("links", kLinksVersion);
+    fields.emplace("links_notes", weights.links->notes);
   }
   if (weights.calibration) {
     put_calibration(*weights.calibration, fields, stored, encoded, faults);

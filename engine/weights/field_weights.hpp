@@ -1,5 +1,5 @@
 // FieldWeights: the network of room `field`, as a .safetensors file beside the velocity model's,
-// and with it that of room `refine`.
+// and with it that of room `refine`, and the one by which room `path` links strands.
 #pragma once
 
 #include <cstdint>
@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "flowdlo/result.hpp"
+#include "weights/link_weights.hpp"
 #include "weights/location.hpp"
 #include "weights/refine_weights.hpp"
 #include "weights/weights.hpp"
@@ -38,6 +39,7 @@ struct FieldWeights {
   FieldSizes sizes;
   std::vector<Tensor> tensors;               ///< exactly field_manifest()'s, in its order
   std::optional<RefineWeights> refine{};     ///< where the file holds that network as well
+  std::optional<LinkWeights> links{};        ///< and the one that links its strands,
   std::optional<Calibration> calibration{};  ///< and what the gate was fitted to beside this field
 
   /// The tensor of that name. It must be one of the manifest's.

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <cmath>
+#include <numeric>
 #include <random>
 
 namespace flowdlo::lab {
@@ -11,7 +12,6 @@ using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowM
 using Eigen::Index;
 using Eigen::VectorXd;
 
-constexpr double kRate = 0.02;       // of a weight, in one step; falls to nothing
 constexpr double kMomentum = 0.9;    // of the mean slope
 constexpr double kSmoothing = 0.99;  // of the mean squared slope
 constexpr double kLeastSlope = 1e-8;
@@ -84,8 +84,16 @@ Weights first_weights(const NetworkTask& task) {
 /// Mean slope of the rows that this step takes.
 Weights slope_of(const NetworkTask& task, const Matrix& rows, const Weights& weights, int step) {
   const auto stride = static_cast<Index>(task.stride);
-  const Index first = (step - 1) % stride;
-  const Index count = (rows.rows() - first + stride - 1) / stride;
+  const std::size_t batch =
+      task.batches.empty() ? 0 : static_cast<std::size_t>(step - 1) % task.batches.size();
+  Index first = (step - 1) % stride;
+  Index count = (rows.rows() - first + stride - 1) / stride;
+  if (!task.batches.empty()) {
+    first = static_cast<Index>(
+        std::accumulate(task.batches.begin(),
+                        task.batches.begin() + static_cast<std::ptrdiff_t>(batch), std::size_t{0}));
+    count = static_cast<Index>(task.batches[batch]);
+  }
   const Eigen::Map<const Matrix, 0, Eigen::OuterStride<>> taken(
       rows.data() + first * rows.cols(), count, rows.cols(),
       Eigen::OuterStride<>(stride * rows.cols()));
@@ -93,7 +101,7 @@ Weights slope_of(const NetworkTask& task, const Matrix& rows, const Weights& wei
   const Matrix said = taken * weights.straight.transpose() + bends * weights.bent.transpose();
   Matrix slope = Matrix::Zero(count, said.cols());
   const auto size = static_cast<std::size_t>(slope.size());
-  if (task.slopes) task.slopes({said.data(), size}, {slope.data(), size});
+  if (task.slopes) task.slopes(batch, {said.data(), size}, {slope.data(), size});
   for (Index i = 0; !task.slopes && i < count; ++i) {
     const auto row = static_cast<std::size_t>(first + i * stride);
     task.slope(row, {said.row(i).data(), task.outputs}, {slope.row(i).data(), task.outputs});
@@ -135,7 +143,7 @@ NetworkWeights fit_network(const NetworkTask& task) {
   Descent straight(weights.straight);
   for (int step = 1; step <= task.steps; ++step) {
     const Weights slope = slope_of(task, rows, weights, step);
-    const double rate = kRate * (1 - static_cast<double>(step - 1) / task.steps);
+    const double rate = task.rate * (1 - static_cast<double>(step - 1) / task.steps);
     hidden.step(slope.hidden, step, rate, weights.hidden);
     bent.step(slope.bent, step, rate, weights.bent);
     straight.step(slope.straight, step, rate, weights.straight);

@@ -28,14 +28,19 @@ struct NetworkTask {
   std::vector<double> start;   ///< [outputs] what is said of every row at first
   double ridge = 0;            ///< penalty of squared weights of standardised features, a row
   int steps = 0;
+  double rate = 0.02;      ///< of a weight, in one step; falls to nothing
   bool bends = true;       ///< false: the straight way alone
   std::size_t stride = 1;  ///< each step takes every so many-th row, in turn
   /// Fills what the loss of that row rises by with each output.
   std::function<void(std::size_t row, std::span<const double> said, std::span<double> slope)>
       slope{};
-  /// In its place, where the rows' losses hang together: the same for all rows at once, both
-  /// [rows, outputs]. The stride is then 1.
-  std::function<void(std::span<const double> said, std::span<double> slope)> slopes{};
+  /// In its place, where the rows' losses hang together: the same for all rows of a batch at once,
+  /// both [rows, outputs]. The stride is then 1.
+  std::function<void(std::size_t batch, std::span<const double> said, std::span<double> slope)>
+      slopes{};
+  /// The rows' numbers in each batch, which together are all, in order; each step takes one, in
+  /// turn. Empty: all rows are one batch.
+  std::vector<std::size_t> batches{};
 };
 
 /// The same for the same task. Expects at least one row.

@@ -71,7 +71,7 @@ NetworkWeights fit_policy_network(const std::vector<Group>& groups, double ridge
   for (const Group& group : groups) {
     for (const auto& row : group.rows) task.rows.insert(task.rows.end(), row.begin(), row.end());
   }
-  task.slopes = [&](std::span<const double> said, std::span<double> slope) {
+  task.slopes = [&](std::size_t, std::span<const double> said, std::span<double> slope) {
     std::size_t first = 0;
     for (const Group& group : groups) {
       const auto scores = said.subspan(first, group.rows.size());

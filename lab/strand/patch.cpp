@@ -306,6 +306,8 @@ Patch Cutter::cut(const synth::SyntheticFrame& frame, const synth::Window& windo
   return patch;
 }
 
+}  // namespace
+
 /// Of the kinds of several ropes all but those that the image ends before: their curves are known
 /// inside it alone, and would show ends that are none.
 synth::SyntheticFrame drawn_training_frame(std::uint64_t seed, std::uint64_t index) {
@@ -323,8 +325,6 @@ synth::SyntheticFrame drawn_training_frame(std::uint64_t seed, std::uint64_t ind
                                   2 + static_cast<int>(number / kSeveral.size() % 4), ropes_seed,
                                   true);
 }
-
-}  // namespace
 
 std::vector<Strand> strands_of(const synth::SyntheticFrame& frame) {
   std::vector<Strand> strands;

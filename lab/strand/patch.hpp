@@ -64,8 +64,11 @@ struct PatchConfig {
                                                     const PatchConfig& config = {},
                                                     bool matched = false);
 
-/// Patches of a plain drawn frame of the training part: of every other one's single rope, of the
-/// others' two to five. Deterministic.
+/// A plain drawn frame of the training part: every other one's is of a single rope, the others' of
+/// two to five. With dense truth. Deterministic.
+[[nodiscard]] synth::SyntheticFrame drawn_training_frame(std::uint64_t seed, std::uint64_t index);
+
+/// Patches of it. Deterministic.
 [[nodiscard]] std::vector<Patch> drawn_patches_of(std::uint64_t seed, std::uint64_t index,
                                                   const PatchConfig& config = {});
 

@@ -52,7 +52,7 @@ class Linked {
 
   [[nodiscard]] const Strands& strands() const { return strands_; }
   [[nodiscard]] std::vector<std::vector<Bond>> links() const {
-    return make_links(strands_, region_, frame_);
+    return prices_of(strands_, region_, frame_).bonds;
   }
   [[nodiscard]] Link between(int from, int to,
                              float most = std::numeric_limits<float>::max()) const {

@@ -17,11 +17,14 @@ Strands strands_of(std::size_t count) {
   Strands strands;
   strands.width_px = strands.scale_px = 10;
   strands.list.resize(count);
-  for (Strand& strand : strands.list) {
-    strand.covers_px = 400;
-    for (StrandEnd& end : strand.ends) end.end_cost = kStop;
-  }
+  for (Strand& strand : strands.list) strand.covers_px = 400;
   return strands;
+}
+
+// What these bonds cost, where each end costs kStop.
+Prices prices_of(Bonds bonds) {
+  const std::size_t ends = bonds.size();
+  return {std::move(bonds), std::vector<float>(ends, kStop)};
 }
 
 void join(Bonds& bonds, int a, int b, float cost) {
@@ -33,7 +36,7 @@ void join(Bonds& bonds, int a, int b, float cost) {
 std::vector<RopeSet> two_strands(float gap, int ropes) {
   Bonds bonds(4);
   join(bonds, 1, 2, gap);
-  return search_sets(strands_of(2), bonds, ropes, 4);
+  return search_sets(strands_of(2), prices_of(bonds), ropes, 4);
 }
 
 TEST(RopeSets, AGapThatCostsLessThanARopeJoinsTwoStrands) {
@@ -71,7 +74,7 @@ TEST(RopeSets, RopesThatCrossGoStraightOn) {
   for (const int a : {1, 2}) {
     for (const int b : {5, 6}) join(bonds, a, b, 2.0F);
   }
-  const auto sets = search_sets(strands, bonds, 0, 8);
+  const auto sets = search_sets(strands, prices_of(bonds), 0, 8);
   ASSERT_FALSE(sets.empty());
   ASSERT_EQ(sets[0].ways.size(), 2U);
   EXPECT_EQ(sets[0].ways[0].enters, (std::vector<int>{0, 2}));
@@ -91,30 +94,28 @@ Strands rope_with_loop() {
   lay(0, {{0, 100}, {0, 60}, {0, 10}});
   lay(1, {{0, -10}, {0, -60}, {0, -100}});
   lay(2, {{6, 8}, {60, 60}, {120, 0}, {60, -60}, {6, -8}});
-  for (const int inner : {1, 2, 4, 5}) {  // where no rope seems to end
-    strands.list[static_cast<std::size_t>(inner / 2)]
-        .ends[static_cast<std::size_t>(inner % 2)]
-        .end_cost = 3 * kStop;
-  }
   return strands;
 }
 
-Bonds loop_bonds(float through, float back) {
+Prices loop_prices(float through, float back) {
   Bonds bonds(6);
   join(bonds, 1, 5, through);  // from below into the ring's upper end,
   join(bonds, 2, 4, through);  // and from its lower one on above
   join(bonds, 1, 2, back);     // or past it,
   join(bonds, 4, 5, back);     // which closes
-  return bonds;
+  Prices prices = prices_of(bonds);
+  for (const std::size_t inner : {1, 2, 4, 5})
+    prices.stops[inner] = 3 * kStop;  // no rope seems to end there
+  return prices;
 }
 
 TEST(RopeSets, ARingThatARopeTouchesIsALoopUnlessThatCostsMuchMore) {
   const Strands strands = rope_with_loop();
-  const float gain = kTouchEnergy + kRingEnergy;
-  const auto loop = search_sets(strands, loop_bonds(1 + 0.5F * gain - 0.1F, 1), 0, 4);
+  const float gain = kTouchEnergy;
+  const auto loop = search_sets(strands, loop_prices(1 + 0.5F * gain - 0.1F, 1), 0, 4);
   ASSERT_FALSE(loop.empty());
-  EXPECT_EQ(loop[0].ways.size(), 1U) << "within what a ring that is touched costs";
-  const auto ring = search_sets(strands, loop_bonds(1 + 0.5F * gain + 0.1F, 1), 0, 4);
+  EXPECT_EQ(loop[0].ways.size(), 1U) << "within what touching costs";
+  const auto ring = search_sets(strands, loop_prices(1 + 0.5F * gain + 0.1F, 1), 0, 4);
   ASSERT_FALSE(ring.empty());
   ASSERT_EQ(ring[0].ways.size(), 2U);
   EXPECT_TRUE(ring[0].ways[0].closed || ring[0].ways[1].closed);
@@ -137,7 +138,7 @@ TEST(RopeSets, StrandsThatComeTogetherRatherCrossThanTouch) {
     for (const int a : {1, 3}) {
       for (const int b : {5, 7}) join(bonds, a, b, aside);
     }
-    return search_sets(strands, bonds, 2, 4).at(0);
+    return search_sets(strands, prices_of(bonds), 2, 4).at(0);
   };
   const RopeSet crossing = by(1 + 0.5F * kTouchEnergy - 0.1F, 1);
   EXPECT_EQ(crossing.ways[0].enters, (std::vector<int>{0, 3}));
@@ -151,11 +152,11 @@ TEST(RopeSets, AWayThatComesBackToItsBeginningIsClosed) {
   Bonds bonds(4);
   join(bonds, 1, 2, 0.1F);
   join(bonds, 3, 0, 0.1F);
-  const auto sets = search_sets(strands_of(2), bonds, 0, 4);
+  const auto sets = search_sets(strands_of(2), prices_of(bonds), 0, 4);
   ASSERT_FALSE(sets.empty());
   ASSERT_EQ(sets[0].ways.size(), 1U);
   EXPECT_TRUE(sets[0].ways[0].closed);
-  EXPECT_NEAR(sets[0].cost, kRingEnergy + 0.2F, 1e-4F);
+  EXPECT_NEAR(sets[0].cost, 0.2F, 1e-4F);
 }
 
 TEST(RopeSets, WhatIsTooShortForARingStaysOpen) {
@@ -163,22 +164,22 @@ TEST(RopeSets, WhatIsTooShortForARingStaysOpen) {
   strands.list[0].covers_px = 60;  // six widths
   Bonds bonds(2);
   join(bonds, 0, 1, 0.1F);
-  const auto open = search_sets(strands, bonds, 0, 1);
+  const auto open = search_sets(strands, prices_of(bonds), 0, 1);
   ASSERT_FALSE(open.empty());
   EXPECT_FALSE(open[0].ways.at(0).closed);
   strands.list[0].covers_px = 100;
-  EXPECT_TRUE(search_sets(strands, bonds, 0, 1).at(0).ways.at(0).closed);
+  EXPECT_TRUE(search_sets(strands, prices_of(bonds), 0, 1).at(0).ways.at(0).closed);
 }
 
 TEST(RopeSets, AShortStrandIsLeftOutAndALongOneIsARope) {
   Strands strands = strands_of(2);
   strands.list[1].covers_px = 12;  // hardly more than a width
-  const auto with_speck = search_sets(strands, Bonds(4), 0, 1);
+  const auto with_speck = search_sets(strands, prices_of(Bonds(4)), 0, 1);
   ASSERT_FALSE(with_speck.empty());
   EXPECT_EQ(with_speck[0].ways.size(), 1U);
   EXPECT_FLOAT_EQ(with_speck[0].cost, kRope + left_out_energy(strands.list[1], strands));
   strands.list[1].covers_px = 60;
-  EXPECT_EQ(search_sets(strands, Bonds(4), 0, 1).at(0).ways.size(), 2U);
+  EXPECT_EQ(search_sets(strands, prices_of(Bonds(4)), 0, 1).at(0).ways.size(), 2U);
 }
 
 TEST(RopeSets, NoStrandsAreNoSet) {

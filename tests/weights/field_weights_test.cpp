@@ -168,5 +168,46 @@ TEST_F(FieldWeightsTest, TensorsOfANetworkThatRefinesNeedItsVersion) {
   EXPECT_THAT(fault(), HasSubstr("refine.stem.weight"));
 }
 
+TEST_F(FieldWeightsTest, TheNetworkThatLinksComesBackBesideBoth) {
+  weights_.refine = seeded_refine(3);
+  weights_.links = seeded_links(4);
+  weights_.links->notes = "fitted to nothing";
+  ASSERT_TRUE(save_field(weights_, file()));
+  const auto loaded = load_field(file());
+  ASSERT_TRUE(loaded) << loaded.error().message;
+  ASSERT_TRUE(loaded->links);
+  ASSERT_TRUE(loaded->refine);
+  EXPECT_EQ(loaded->links->notes, "fitted to nothing");
+  EXPECT_EQ(loaded->tensors.size(), weights_.tensors.size());
+  EXPECT_EQ(loaded->refine->tensors.size(), refine_manifest().size());
+  ASSERT_EQ(loaded->links->tensors.size(), links_manifest().size());
+  for (const char* const name : {"hidden", "bent", "straight"}) {
+    const Tensor& got = loaded->links->at(name);
+    const Tensor& want = weights_.links->at(name);
+    EXPECT_EQ(got.shape, want.shape);
+    for (std::size_t i = 0; i < want.values.size(); ++i) {
+      ASSERT_NEAR(got.values[i], want.values[i], 1e-3F * std::abs(want.values[i]) + 1e-7F);
+    }
+  }
+}
+
+TEST_F(FieldWeightsTest, AnotherVersionOfTheNetworkThatLinksIsRefused) {
+  weights_.links = seeded_links(4);
+  ASSERT_TRUE(save_field(weights_, file()));
+  std::string bytes = text();
+  const auto at = bytes.find("\"links\":\"1\"");
+  ASSERT_NE(at, std::string::npos);
+  bytes.replace(at, 11, "\"links\":\"2\"");
+  write(bytes);
+  EXPECT_THAT(fault(), HasSubstr("metadata links: expected \"1\""));
+}
+
+TEST_F(FieldWeightsTest, TensorsOfANetworkThatLinksAreChecked) {
+  weights_.links = seeded_links(4);
+  weights_.links->tensors.back().values.pop_back();
+  weights_.links->tensors.back().shape = {kLinkInputs - 1};
+  EXPECT_FALSE(save_field(weights_, file()));
+}
+
 }  // namespace
 }  // namespace flowdlo::weights
