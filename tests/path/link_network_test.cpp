@@ -72,13 +72,14 @@ struct Gapped : test::Seen {
       : Seen({straight_axis({40, 120}, {150, 120}), straight_axis({166, 120}, {280, 120}),
               straight_axis({158, 200}, {158, 140})}) {}
 
-  [[nodiscard]] Prices prices(std::shared_ptr<const weights::LinkWeights> links) {
+  [[nodiscard]] Prices prices(std::shared_ptr<const weights::LinkWeights> links,
+                              bool several = false) {
     const Frame frame = canvas.frame();
     field.links = std::move(links);
     const field::Axes axes = field::axes(field);
     const auto region = clean(frame);
     EXPECT_TRUE(region);
-    return prices_of(strands_of(frame, axes, *region), *region, frame);
+    return prices_of(strands_of(frame, axes, *region, several), *region, frame);
   }
 };
 
@@ -98,6 +99,14 @@ TEST(LinkNetwork, PricesWhatTheEnergyChooses) {
     EXPECT_TRUE(std::is_permutation(asked.begin(), asked.end(), answered.begin(), answered.end()));
     EXPECT_TRUE(std::is_sorted(by_network.bonds[end].begin(), by_network.bonds[end].end(),
                                [](const Bond& a, const Bond& b) { return a.cost < b.cost; }));
+  }
+}
+
+TEST(LinkNetwork, OneMoreOfSeveralRopesCostsALittle) {
+  Gapped gapped;
+  const Prices prices = gapped.prices(std::make_shared<const weights::LinkWeights>(with(0)), true);
+  for (const float stop : prices.stops) {
+    EXPECT_FLOAT_EQ(2 * stop, 2 * std::log(2.0F) + kOneMoreEnergy);
   }
 }
 
