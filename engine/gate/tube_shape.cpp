@@ -6,6 +6,7 @@
 #include <cstddef>
 
 #include "geometry/camera.hpp"
+#include "geometry/segments.hpp"
 
 namespace flowdlo::gate {
 namespace {
@@ -15,15 +16,13 @@ using Eigen::Vector3f;
 
 constexpr float kStraight = 0.04F;  // bulge a half segment that is not worth a sample
 
-float cross(const Vector2f& a, const Vector2f& b) { return a.x() * b.y() - a.y() * b.x(); }
-
 /// Where segment a crosses segment b: fractions of both, each in [0, 1). False when they do not.
 bool meet(const Vector2f& from, const Vector2f& a, const Vector2f& other, const Vector2f& b,
           float& at_a, float& at_b) {
-  const float det = cross(a, b);
+  const float det = geometry::cross(a, b);
   if (std::abs(det) < 1e-9F) return false;
-  at_a = cross(other - from, b) / det;
-  at_b = cross(other - from, a) / det;
+  at_a = geometry::cross<float>(other - from, b) / det;
+  at_b = geometry::cross<float>(other - from, a) / det;
   return at_a >= 0 && at_a < 1 && at_b >= 0 && at_b < 1;
 }
 
@@ -90,7 +89,7 @@ void measure_crossings(const std::vector<TubePoint>& tube, float radius_m, TubeS
       const float depth_a = tube[i].depth_m + at_a * (tube[i + 1].depth_m - tube[i].depth_m);
       const float depth_b = tube[k].depth_m + at_b * (tube[k + 1].depth_m - tube[k].depth_m);
       ++crossings;
-      least_sine = std::min(least_sine, std::abs(cross(a, b)) / (a.norm() * b.norm()));
+      least_sine = std::min(least_sine, std::abs(geometry::cross(a, b)) / (a.norm() * b.norm()));
       least_clearance = std::min(least_clearance, std::abs(depth_a - depth_b) / (2 * radius_m));
     }
   }

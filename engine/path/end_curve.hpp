@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <cmath>
 
 #include "path/strands.hpp"
 
@@ -52,6 +53,11 @@ struct EndCurve {
   float length_px = 0;
   float bending = 0;  ///< energy times length: free of units; for an arc, its turn squared
 };
+
+/// log(1 + B / 0.1), B: how much the curve bends; less than 0.1 hardly tells.
+[[nodiscard]] inline float log_bend(const EndCurve& curve) {
+  return std::log1p(curve.bending / 0.1F);
+}
 
 /// The cubic with tangents of `leaves` and `enters` chords along the ends' headings; ends within
 /// half of `scale_px` have no curve between them, and bend by their turn. Bends are told from how

@@ -12,7 +12,6 @@ using Eigen::Vector2f;
 
 constexpr int kFineRounds = 10;          // of the tangents that are drawn, each
 constexpr float kFineFactor = 1.15F;     // so much longer or shorter
-constexpr float kBend = 0.1F;            // L times the integral of bend^2 that hardly tells
 constexpr float kFollowedWidths = 1.0F;  // a strand that shows farther from both ends has its line
 constexpr float kShown = 0.4F;           // of the field: as much as shows it surely
 constexpr float kLongWidths = 3.0F;      // scales of the terms, in widths
@@ -28,8 +27,7 @@ float depth_misfit(const StrandEnd& from, const StrandEnd& to, float width_px, f
   if (from.depth_m <= 0 || to.depth_m <= 0 || focal_px <= 0) return 0;
   const float length_px = (to.point_px - from.point_px).norm();
   const float metres_per_px = 0.5F * (from.depth_m + to.depth_m) / focal_px;
-  const float expected = 0.5F * length_px * (from.slope_per_px - to.slope_per_px);
-  const float off = std::abs(to.depth_m - from.depth_m - expected);
+  const float off = uneven_m(from, to);
   const float noise = kDepthNoise_m + (0.5F * width_px + kDepthNoise * length_px) * metres_per_px;
   return std::log1p(0.5F * (off / noise) * (off / noise));
 }
@@ -88,7 +86,7 @@ class Linker {
   // A curve, and what its length and its bends cost.
   [[nodiscard]] Attempt drawn(float leaves, float enters) const {
     Attempt attempt{leaves, enters, end_curve(from_, to_, leaves, enters, w_), fit_};
-    const float bend = std::log1p(attempt.curve.bending / kBend);
+    const float bend = log_bend(attempt.curve);
     attempt.terms[kLinkLong] = std::log1p(attempt.curve.length_px / (kLongWidths * w_));
     attempt.terms[kLinkBend] = config_.trust * bend;
     attempt.terms[kLinkStump] = (1 - config_.trust) * bend;
@@ -147,6 +145,12 @@ class Linker {
 };
 
 }  // namespace
+
+float uneven_m(const StrandEnd& from, const StrandEnd& to) {
+  const float length_px = (to.point_px - from.point_px).norm();
+  const float expected = 0.5F * length_px * (from.slope_per_px - to.slope_per_px);
+  return std::abs(to.depth_m - from.depth_m - expected);
+}
 
 Link best_link(const StrandEnd& from, const StrandEnd& to, const Cover& cover,
                const LinkConfig& config, float most) {

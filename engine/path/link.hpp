@@ -27,6 +27,9 @@ struct LinkConfig {
   float elsewhere = 0;  ///< kLinkHeard
 };
 
+/// How far the depths on both sides, which must be known, are from one smooth strand; metres.
+[[nodiscard]] float uneven_m(const StrandEnd& from, const StrandEnd& to);
+
 /// The cheapest cubic from one end to another; energy from `most` on: none that costs less.
 /// `cover` sees the field, where there is one.
 [[nodiscard]] Link best_link(const StrandEnd& from, const StrandEnd& to, const Cover& cover,

@@ -4,20 +4,19 @@
 #include <cmath>
 #include <numbers>
 
+#include "geometry/segments.hpp"
+
 namespace flowdlo::path {
 namespace {
 
 using Eigen::Vector2f;
 
 constexpr float kPi = std::numbers::pi_v<float>;
-constexpr float kBend = 0.1F;
 constexpr float kMost = 3.0F;  // of slopes and curvatures
 
 float angle(const Vector2f& a, const Vector2f& b) {
   return std::acos(std::clamp(a.dot(b), -1.0F, 1.0F)) / kPi;
 }
-
-float cross(const Vector2f& a, const Vector2f& b) { return a.x() * b.y() - a.y() * b.x(); }
 
 float length_px(int end, const Strands& strands) {
   return static_cast<float>(strands.list[end / 2].points_px.size());
@@ -61,7 +60,7 @@ SideFeatures side_features(int from, int to, const Strands& strands, const Cover
   const Vector2f chord = b.point_px - a.point_px;
   const Vector2f way = chord.norm() > 0 ? Vector2f(chord.normalized()) : a.outward;
   const float ahead = a.outward.dot(chord) / w;
-  const float aside = cross(a.outward, chord) / w;
+  const float aside = geometry::cross(a.outward, chord) / w;
   SideFeatures f{};
   f[kSideTurn] = angle(a.outward, way);
   f[kSideHeads] = angle(a.heading.norm() > 0 ? Vector2f(a.heading.normalized()) : a.outward, way);
@@ -84,7 +83,7 @@ PairFeatures pair_features(int from, int to, const Link& link, const Strands& st
   std::copy(link.terms.begin(), link.terms.end(), f.begin());
   f[kPairChord] = std::log1p(chord / w);
   f[kPairDetour] = std::log((link.curve.length_px + 0.5F * w) / (chord + 0.5F * w));
-  f[kPairBend] = std::log1p(link.curve.bending / kBend);
+  f[kPairBend] = log_bend(link.curve);
   f[kPairTurn] = angle(-a.outward, b.outward);
   f[kPairOwn] = from / 2 == to / 2 ? 1.0F : 0.0F;
   if (a.look.width_px > 0 && b.look.width_px > 0) {
@@ -92,10 +91,9 @@ PairFeatures pair_features(int from, int to, const Link& link, const Strands& st
   }
   if (a.depth_m > 0 && b.depth_m > 0) {
     const float unit = metres_per_px(a, b, cover) * w;
-    const float expected = 0.5F * chord * (a.slope_per_px - b.slope_per_px);
     f[kPairDeep] = 1;
     f[kPairApart] = std::log1p(std::abs(b.depth_m - a.depth_m) / unit);
-    f[kPairUneven] = std::log1p(std::abs(b.depth_m - a.depth_m - expected) / unit);
+    f[kPairUneven] = std::log1p(uneven_m(a, b) / unit);
   }
   f[kPairWorst] = 1;
   for (int i = 0; i < kCurveSamples; ++i) {

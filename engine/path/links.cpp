@@ -98,13 +98,13 @@ class Offers {
       if (link.energy >= most) continue;
       keep(pair.from, pair.to, link.energy);
       keep(pair.to, pair.from, link.energy);
-      links_.try_emplace(std::minmax(pair.from, pair.to), link);
+      links_.try_emplace({pair.from, pair.to}, link);
     }
   }
 
   [[nodiscard]] const std::vector<std::vector<Bond>>& cheapest() const { return cheapest_; }
-  // From the lower one of both ends to the other.
-  [[nodiscard]] const Link& link(int a, int b) const { return links_.at(std::minmax(a, b)); }
+  // By both ends, the lower one first, from which it leads.
+  [[nodiscard]] const std::map<std::pair<int, int>, Link>& links() const { return links_; }
 
  private:
   [[nodiscard]] float kept(int end) const {
@@ -122,14 +122,10 @@ class Offers {
   std::map<std::pair<int, int>, Link> links_;
 };
 
-float going_on(const Opinion& opinion, int end) {
-  return opinion.goes_on.empty() ? 0 : opinion.goes_on[end];
-}
-
 Prices by_energy(const Offers& offers, const Strands& strands, const Opinion& opinion) {
   Prices prices{offers.cheapest(), {}};
   for (int end = 0; end < static_cast<int>(prices.bonds.size()); ++end) {
-    const StopTerms terms = stop_terms(strands.end(end), going_on(opinion, end));
+    const StopTerms terms = stop_terms(strands.end(end), opinion.going_on(end));
     prices.stops.push_back(energy_of(terms, kStopWeights));
   }
   return prices;
@@ -142,16 +138,22 @@ Prices by_network(const Offers& offers, const Strands& strands, const Cover& cov
   const auto count = static_cast<int>(prices.bonds.size());
   std::vector<EndFeatures> ends;
   for (int end = 0; end < count; ++end) {
-    ends.push_back(end_features(end, strands, cover, going_on(opinion, end)));
+    ends.push_back(end_features(end, strands, cover, opinion.going_on(end)));
     const float more = strands.several ? kOneMoreEnergy / 2 : 0;
     prices.stops.push_back(network.stop(ends.back()) + more);
   }
+  std::map<std::pair<int, int>, float> costs;  // of the links that are kept, by both ends
   for (int end = 0; end < count; ++end) {
     for (Bond& bond : prices.bonds[end]) {
-      const auto [a, b] = std::minmax(end, bond.to);
-      const PairFeatures pair = pair_features(a, b, offers.link(a, b), strands, cover);
-      bond.cost = network.link(pair, {ends[a], side_features(a, b, strands, cover)},
-                               {ends[b], side_features(b, a, strands, cover)});
+      const auto [known, unknown] = costs.try_emplace(std::minmax(end, bond.to), 0.0F);
+      if (unknown) {
+        const auto& [a, b] = known->first;
+        const PairFeatures pair =
+            pair_features(a, b, offers.links().at(known->first), strands, cover);
+        known->second = network.link(pair, {ends[a], side_features(a, b, strands, cover)},
+                                     {ends[b], side_features(b, a, strands, cover)});
+      }
+      bond.cost = known->second;
     }
     std::stable_sort(prices.bonds[end].begin(), prices.bonds[end].end(), cheaper);
   }
@@ -176,9 +178,8 @@ Prices prices_of(const Strands& strands, const Region& region, const Frame& fram
                  const Opinion& opinion) {
   const Cover cover(region, frame, strands.width_px, strands.seen);
   const Offers offers(strands, cover, opinion);
-  const bool learned = strands.seen != nullptr && strands.links != nullptr;
-  return learned ? by_network(offers, strands, cover, opinion)
-                 : by_energy(offers, strands, opinion);
+  return strands.links != nullptr ? by_network(offers, strands, cover, opinion)
+                                  : by_energy(offers, strands, opinion);
 }
 
 }  // namespace flowdlo::path

@@ -29,7 +29,7 @@ struct Prices {
 /// lead from one end of a strand to its other one, for there may be rings, but none from one end at
 /// the image's border to another: what comes back is another rope.
 [[nodiscard]] Prices prices_of(const Strands& strands, const Region& region, const Frame& frame,
-                            const Opinion& opinion = {});
+                               const Opinion& opinion = {});
 
 /// The link between two ends by energy.hpp, whatever it costs. `elsewhere` is kLinkHeard.
 [[nodiscard]] Link link_between(int from, int to, const Strands& strands, const Cover& cover,

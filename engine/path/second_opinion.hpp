@@ -20,6 +20,8 @@ struct Opinion {
 
   /// How likely it is that one of the two ends does not go on to the other one.
   [[nodiscard]] float against(int a, int b) const;
+  /// How likely the rope goes on from that end to another strand.
+  [[nodiscard]] float going_on(int end) const { return goes_on.empty() ? 0 : goes_on[end]; }
 };
 
 /// By another reading's `guesses`, whose places are those of the frame that `region` was cut out

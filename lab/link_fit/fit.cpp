@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "gate_fit/network_fit.hpp"
@@ -117,16 +118,16 @@ weights::LinkWeights fit_links(const std::vector<LinkSample>& samples, int round
 
 LinkQuality quality_of(std::span<const LinkSample> samples, const weights::LinkWeights* weights) {
   LinkQuality quality;
+  std::optional<path::LinkNetwork> network;
+  if (weights != nullptr) network.emplace(*weights);
   for (const LinkSample& sample : samples) {
     std::vector<double> costs;
     for (const auto& end : sample.ends) {
-      costs.push_back(static_cast<double>(
-          weights == nullptr ? end.by_energy : path::LinkNetwork(*weights).energy(end.features)));
+      costs.push_back(static_cast<double>(network ? network->energy(end.features) : end.by_energy));
     }
     for (const auto& link : sample.links) {
-      costs.push_back(static_cast<double>(
-          weights == nullptr ? link.by_energy
-                             : path::LinkNetwork(*weights).energy(link.forth, link.back)));
+      costs.push_back(
+          static_cast<double>(network ? network->energy(link.forth, link.back) : link.by_energy));
     }
     for (const EndChoice& choice : choices_of(sample)) {
       const Judged judged = judge(choice, costs, {});

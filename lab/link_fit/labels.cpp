@@ -176,6 +176,11 @@ Result<Masked> read_mask(const Frame& frame, bool several) {
 
 }  // namespace
 
+bool has_ring(const synth::SyntheticFrame& scene) {
+  return std::any_of(scene.ropes.begin(), scene.ropes.end(),
+                     [](const synth::TrueRope& rope) { return rope.closed; });
+}
+
 Result<std::unique_ptr<const Labelled>> label(synth::SyntheticFrame scene, bool several,
                                               field::Network& network) {
   auto labelled = std::make_unique<Labelled>();
@@ -188,6 +193,7 @@ Result<std::unique_ptr<const Labelled>> label(synth::SyntheticFrame scene, bool 
   const auto seen = field::see(frame, masked->rope_width_px, network, several);
   if (!seen) return seen.error();
   labelled->axes = field::axes(*seen);
+  labelled->axes.links = nullptr;
   auto region = path::clean(frame, several ? 0 : 1);
   if (!region) return region.error();
   labelled->region = *std::move(region);

@@ -1,6 +1,8 @@
 // Labels: the strands that a field shows in a scene with truth, and where each end really goes on.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <vector>
 
@@ -20,13 +22,21 @@ inline constexpr int kStops = -1;
 /// or its strand lies on no rope, or on what cannot be told.
 inline constexpr int kUnknown = -2;
 
+/// Scenes with more strands than that teach nothing but noise.
+inline constexpr std::size_t kMostStrands = 60;
+/// Every so many-th scene is held out of fits.
+inline constexpr std::uint64_t kHeldOut = 4;
+
+/// Whether one of the ropes has no ends.
+[[nodiscard]] bool has_ring(const synth::SyntheticFrame& scene);
+
 /// Stays where it is: its members borrow one another.
 struct Labelled {
   synth::SyntheticFrame scene;
   Frame frame;  ///< without labels
   field::Axes axes;
   path::Region region;
-  path::Strands strands;
+  path::Strands strands;      ///< without a network that links them
   path::Opinion opinion;      ///< what the mask's reading says, where there may be several ropes
   std::vector<int> partners;  ///< [2 * strands] the end that the rope really goes on with from each
 

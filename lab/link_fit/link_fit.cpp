@@ -29,8 +29,6 @@
 namespace flowdlo::lab {
 namespace {
 
-constexpr std::size_t kMostStrands = 60;
-constexpr std::uint64_t kHeldOut = 4;    // every so many-th scene,
 constexpr std::uint64_t kFlat = 5;       // has one depth everywhere, as photographs have it,
 constexpr std::uint64_t kAsSeveral = 3;  // and of one rope is read as if there may be several
 
@@ -68,11 +66,9 @@ Result<std::optional<LinkSample>> measure(Source source, std::uint64_t index,
   auto scene = scene_of(source, index);
   if (!scene) return scene.error();
   if (index % kFlat == 0) flatten(*scene);
-  const bool ring = std::any_of(scene->ropes.begin(), scene->ropes.end(),
-                                [](const synth::TrueRope& rope) { return rope.closed; });
   const bool one = scene->ropes.size() == 1;
   const bool several = !one || index % kAsSeveral == 1;
-  if (ring && !several) return std::optional<LinkSample>();
+  if (has_ring(*scene) && !several) return std::optional<LinkSample>();
   const auto labelled = label(*std::move(scene), several, network);
   if (!labelled) return labelled.error();
   if ((*labelled)->strands.list.size() > kMostStrands) return std::optional<LinkSample>();

@@ -28,8 +28,7 @@ std::set<std::pair<int, int>> pairs_of(const std::vector<std::vector<path::Bond>
 }  // namespace
 
 LinkSample sample_of(const Labelled& labelled) {
-  path::Strands strands = labelled.strands;
-  strands.links = nullptr;  // what costs are by the energy alone
+  const path::Strands& strands = labelled.strands;
   const path::Cover cover(labelled.region, labelled.frame, strands.width_px, strands.seen);
   const auto prices = path::prices_of(strands, labelled.region, labelled.frame, labelled.opinion);
   const auto& weights = strands.several ? path::kSeveralRopesLinks : path::kOneRopeLinks;
@@ -37,8 +36,7 @@ LinkSample sample_of(const Labelled& labelled) {
   std::vector<path::EndFeatures> ends;
   for (int end = 0; end < static_cast<int>(labelled.partners.size()); ++end) {
     const auto number = static_cast<std::size_t>(end);
-    const float goes_on = labelled.opinion.goes_on.empty() ? 0 : labelled.opinion.goes_on[number];
-    ends.push_back(path::end_features(end, strands, cover, goes_on));
+    ends.push_back(path::end_features(end, strands, cover, labelled.opinion.going_on(end)));
     sample.ends.push_back(
         {labelled.partners[number], prices.stops[number], path::stop_features(ends.back())});
   }

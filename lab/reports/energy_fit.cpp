@@ -9,10 +9,12 @@
 #include <limits>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "command/report_commands.hpp"
 #include "command_line.hpp"
+#include "link_fit/choices.hpp"
 #include "link_fit/labels.hpp"
 #include "path/links.hpp"
 #include "strand/scene_range.hpp"
@@ -28,9 +30,8 @@ using Eigen::VectorXd;
 // it has two ends whatever they cost: their start is a term of its own, which means nothing.
 constexpr std::size_t kStartOfOne = path::LinkTerms{}.size() + path::StopTerms{}.size();
 constexpr std::size_t kTerms = kStartOfOne + 1;
-constexpr std::size_t kMostStrands = 60;
 
-/// The terms of what a change costs, beside what really happens.
+/// The terms of what a stop or a link costs.
 using Option = std::array<double, kTerms>;
 
 /// What may happen at the ends of a scene's strands; what does is the first option.
@@ -39,98 +40,67 @@ struct Outcome {
   std::vector<survey::Choice> choices;
 };
 
-/// Options at the ends of strands.
-class Changes {
- public:
-  explicit Changes(const Labelled& labelled)
-      : strands_(labelled.strands),
-        cover_(labelled.region, labelled.frame, strands_.width_px, strands_.seen),
-        partners_(labelled.partners),
-        one_rope_(!strands_.several),
-        opinion_(labelled.opinion) {}
+/// What the end's stop consists of.
+Option stop_option(int end, const Labelled& labelled) {
+  const bool one_rope = !labelled.strands.several;
+  const auto terms = path::stop_terms(labelled.strands.end(end), labelled.opinion.going_on(end));
+  Option option{};
+  for (std::size_t i = 0; i < terms.size(); ++i) {
+    const bool start = i == path::kStopStart && one_rope;
+    option[start ? kStartOfOne : path::kLinkTerms + i] = static_cast<double>(terms[i]);
+  }
+  return option;
+}
 
-  std::vector<survey::Choice> all() const {
-    std::vector<survey::Choice> choices;
-    const auto ends = static_cast<int>(partners_.size());
-    for (int end = 0; end < ends; ++end) {
-      if (partner(end) == kUnknown) continue;
-      std::vector<Option> options(1);
-      if (partner(end) >= 0) options.push_back(freed(end));
-      for (int other = 0; other < ends; ++other) {
-        if (other == end || other == partner(end) || strands_.list[other / 2].ring) continue;
-        if (other / 2 == end / 2 && one_rope_) continue;
-        options.push_back(joined(end, other));
+/// And the link between two ends.
+Option link_option(int a, int b, const Labelled& labelled, const path::Cover& cover) {
+  const auto& weights = labelled.strands.several ? path::kSeveralRopesLinks : path::kOneRopeLinks;
+  const auto terms =
+      path::link_between(a, b, labelled.strands, cover, weights, std::numeric_limits<float>::max(),
+                         labelled.opinion.against(a, b))
+          .terms;
+  Option option{};
+  std::copy(terms.begin(), terms.end(), option.begin());
+  return option;
+}
+
+/// Choices at the ends of strands, any two of which might be linked.
+std::vector<survey::Choice> choices_at(const Labelled& labelled) {
+  const path::Strands& strands = labelled.strands;
+  const path::Cover cover(labelled.region, labelled.frame, strands.width_px, strands.seen);
+  LinkSample sample;
+  std::vector<Option> things;
+  const auto count = static_cast<int>(labelled.partners.size());
+  for (int end = 0; end < count; ++end) {
+    sample.ends.push_back({.partner = labelled.partners[static_cast<std::size_t>(end)]});
+    things.push_back(stop_option(end, labelled));
+  }
+  const auto known = [&](int end) {
+    return labelled.partners[static_cast<std::size_t>(end)] != kUnknown;
+  };
+  for (int a = 0; a < count; ++a) {
+    for (int b = a + 1; b < count; ++b) {
+      if (!known(a) && !known(b)) continue;
+      if (strands.list[a / 2].ring || strands.list[b / 2].ring) continue;
+      if (a / 2 == b / 2 && !strands.several) continue;
+      sample.links.push_back({.a = a, .b = b});
+      things.push_back(link_option(a, b, labelled, cover));
+    }
+  }
+  std::vector<survey::Choice> choices;
+  for (const EndChoice& choice : choices_of(sample)) {
+    Eigen::MatrixXd rows =
+        Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(choice.options.size()), kTerms);
+    for (std::size_t i = 0; i < choice.options.size(); ++i) {
+      for (const Change& change : choice.options[i]) {  // costs are disliked
+        rows.row(static_cast<Eigen::Index>(i)) -=
+            change.sign * Eigen::Map<const Eigen::RowVectorXd>(things[change.thing].data(), kTerms);
       }
-      if (options.size() > 1) choices.push_back({rows_of(options)});
     }
-    return choices;
+    choices.push_back({std::move(rows)});
   }
-
- private:
-  static Eigen::MatrixXd rows_of(const std::vector<Option>& options) {
-    Eigen::MatrixXd rows(static_cast<Eigen::Index>(options.size()), kTerms);
-    for (std::size_t i = 0; i < options.size(); ++i) {
-      rows.row(static_cast<Eigen::Index>(i)) =
-          -Eigen::Map<const Eigen::RowVectorXd>(options[i].data(), kTerms);  // costs are disliked
-    }
-    return rows;
-  }
-  [[nodiscard]] const path::LinkTerms& weights() const {
-    return one_rope_ ? path::kOneRopeLinks : path::kSeveralRopesLinks;
-  }
-  [[nodiscard]] int partner(int end) const { return partners_[static_cast<std::size_t>(end)]; }
-
-  void add_stop(int end, double sign, Option& option) const {
-    const auto terms =
-        path::stop_terms(strands_.end(end), opinion_.goes_on.empty() ? 0 : opinion_.goes_on[end]);
-    for (std::size_t i = 0; i < terms.size(); ++i) {
-      const bool start = i == path::kStopStart && one_rope_;
-      option[start ? kStartOfOne : path::kLinkTerms + i] += sign * static_cast<double>(terms[i]);
-    }
-  }
-  void add_link(int from, int to, double sign, Option& option) const {
-    constexpr float kAny = std::numeric_limits<float>::max();
-    const float elsewhere = opinion_.against(from, to);
-    const auto terms =
-        path::link_between(from, to, strands_, cover_, weights(), kAny, elsewhere).terms;
-    for (std::size_t i = 0; i < terms.size(); ++i)
-      option[i] += sign * static_cast<double>(terms[i]);
-  }
-
-  /// `end` has lost what it had, and `lost` stops where it had something.
-  void lose(int end, Option& option) const {
-    const int had = partner(end);
-    if (had == kStops) add_stop(end, -1, option);
-    if (had < 0) return;
-    add_link(end, had, -1, option);
-    add_stop(had, 1, option);
-  }
-
-  [[nodiscard]] Option freed(int end) const {
-    Option option{};
-    lose(end, option);
-    add_stop(end, 1, option);
-    return option;
-  }
-
-  [[nodiscard]] Option joined(int end, int other) const {
-    Option option{};
-    lose(end, option);
-    add_link(end, other, 1, option);
-    if (partner(other) != kUnknown) {
-      lose(other, option);
-      return option;
-    }
-    add_stop(other ^ 1, 1, option);
-    return option;
-  }
-
-  const path::Strands& strands_;
-  path::Cover cover_;
-  const std::vector<int>& partners_;
-  bool one_rope_;
-  const path::Opinion& opinion_;
-};
+  return choices;
+}
 
 Result<Outcome> measure(synth::Split split, const std::string& part, std::uint64_t index,
                         field::Network& network) {
@@ -140,13 +110,11 @@ Result<Outcome> measure(synth::Split split, const std::string& part, std::uint64
   if (!scene) return scene.error();
   const bool one_rope = scene->ropes.size() == 1;
   Outcome outcome{index, {}};
-  const bool ring = std::any_of(scene->ropes.begin(), scene->ropes.end(),
-                                [](const synth::TrueRope& rope) { return rope.closed; });
-  if (ring) return outcome;  // it begins nowhere
+  if (has_ring(*scene)) return outcome;  // it begins nowhere
   const auto labelled = label(*std::move(scene), !one_rope, network);
   if (!labelled) return labelled.error();
   if ((*labelled)->strands.list.size() > kMostStrands) return outcome;
-  outcome.choices = Changes(**labelled).all();
+  outcome.choices = choices_at(**labelled);
   return outcome;
 }
 
@@ -212,7 +180,7 @@ int run(const Options& options) {
           return measure(split, range.part, index, network);
         });
     for (const Outcome& outcome : outcomes) {
-      auto& part = outcome.index % 4 == 0 ? held : fitted;
+      auto& part = outcome.index % kHeldOut == 0 ? held : fitted;
       part.insert(part.end(), outcome.choices.begin(), outcome.choices.end());
     }
   }
