@@ -48,7 +48,8 @@ Result<bool> read_seen(const Frame& frame, const ReadConfig& config, const SeeAx
     throw_what_ends_a_frame(lifted.error());
     return false;
   }
-  axes->view = {};  // of a large mask many megabytes, and the lines are enough from here on
+  conditions.seen = std::move(axes->view);
+  axes->view = {};
   conditions.axes = std::move(axes);
   return true;
 }
@@ -56,7 +57,7 @@ Result<bool> read_seen(const Frame& frame, const ReadConfig& config, const SeeAx
 }  // namespace
 
 Result<Conditions> gather(const Frame& frame, const ReadConfig& config, Timings& timings,
-                          const path::Traversals* traced, const SeeAxes& see) {
+                          const Traced* traced, const SeeAxes& see) {
   Stopwatch stage;
   Conditions conditions;
   conditions.cloud = evidence::unproject(frame);  // Sec. 3.2
@@ -70,7 +71,7 @@ Result<Conditions> gather(const Frame& frame, const ReadConfig& config, Timings&
   }
   Stopwatch rest;
   auto paths = traced != nullptr
-                   ? Result<path::Traversals>(*traced)
+                   ? Result<path::Traversals>(traced->paths)
                    : path::trace(frame, config.trace(conditions.cleaned));  // Sec. 3.3
   if (traced == nullptr) rest.lap(timings.path_ms);
   if (!paths) return paths.error();
@@ -78,6 +79,7 @@ Result<Conditions> gather(const Frame& frame, const ReadConfig& config, Timings&
   rest.lap(timings.prior_ms);
   if (!lifted) return lifted.error();
   conditions.of_mask = traced == nullptr;
+  if (traced != nullptr) conditions.seen = traced->seen;
   return conditions;
 }
 

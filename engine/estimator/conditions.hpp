@@ -31,6 +31,12 @@ struct ReadConfig {
   }
 };
 
+/// A rope's paths that are known already, and what a strand field shows where they were found.
+struct Traced {
+  path::Traversals paths;
+  std::optional<field::FieldView> seen{};  ///< nothing where none was asked
+};
+
 /// A frame and its first reading.
 struct Conditions {
   evidence::Cloud cloud;
@@ -40,7 +46,8 @@ struct Conditions {
   std::shared_ptr<const path::Region> cleaned{};  ///< the frame's mask, where it is known; or null
   std::optional<field::Axes> axes{};  ///< of the strand field, which the paths run along; nothing:
                                       ///< they are the mask's, or were known already
-  bool of_mask = false;               ///< the paths are those of the mask alone
+  std::optional<field::FieldView> seen{};  ///< what a strand field shows; nothing without one
+  bool of_mask = false;                    ///< the paths are those of the mask alone
 };
 
 /// The first reading runs along `traced` where these paths are known already (else null), otherwise
@@ -49,7 +56,7 @@ struct Conditions {
 /// the axes. Fills evidence_ms, field_ms, path_ms and prior_ms of `timings`. Expects a valid frame.
 /// Fails with kNoEvidence, or as path::glance, path::trace and lift_all do of the mask.
 [[nodiscard]] Result<Conditions> gather(const Frame& frame, const ReadConfig& config,
-                                        Timings& timings, const path::Traversals* traced = nullptr,
+                                        Timings& timings, const Traced* traced = nullptr,
                                         const SeeAxes& see = {});
 
 }  // namespace flowdlo::estimator

@@ -56,7 +56,7 @@ struct FLOWDLO_HIDDEN Estimator::Impl {
   void learn_costs();
   Result<Estimate> estimate(const Frame& frame, const Hints& hints, Tensors* tensors,
                             const estimator::Budget& budget,
-                            const path::Traversals* traced = nullptr);
+                            const estimator::Traced* traced = nullptr);
   [[nodiscard]] bool calibrated() const { return fitted.has_value(); }
   [[nodiscard]] std::optional<field::Axes> axes(const Frame& frame, float rope_width_px,
                                                 const estimator::Budget& budget, bool near_parts,
@@ -198,7 +198,7 @@ Result<estimator::Sampled> Estimator::Impl::sample(const Frame& frame,
 /// model beside them; then the choice.
 Result<Estimate> Estimator::Impl::estimate(const Frame& frame, const Hints& hints, Tensors* tensors,
                                            const estimator::Budget& budget,
-                                           const path::Traversals* traced) {
+                                           const estimator::Traced* traced) {
   if (auto valid = validate(frame); !valid) return valid.error();
   if (auto valid = estimator::check(hints, frame); !valid) return valid.error();
   const estimator::ReadConfig reading{estimator::prior_kind(config, metadata),
@@ -312,7 +312,7 @@ Result<Ropes> Estimator::estimate_ropes(const Frame& frame) {
     const estimator::Budget budget(impl_->config.budget_ms);
     return estimator::estimate_each(
         frame, impl_->config.ropes,
-        [&](const Frame& view, const path::Traversals* traced, double share) {
+        [&](const Frame& view, const estimator::Traced* traced, double share) {
           return impl_->estimate(view, {}, nullptr, budget.part(share), traced);
         },
         [&](float rope_width_px) {

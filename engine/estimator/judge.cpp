@@ -1,12 +1,15 @@
 #include "estimator/judge.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
 #include <utility>
 
 #include "estimator/candidates.hpp"
 #include "estimator/confidence.hpp"
 #include "estimator/refinement.hpp"
 #include "gate/one_rope.hpp"
+#include "geometry/polyline.hpp"
 
 namespace flowdlo::estimator {
 
@@ -15,6 +18,22 @@ struct Judge::Chosen {
   std::vector<gate::Candidate> candidates{};  // none as the thesis has it
   Returned returned{};
 };
+
+namespace {
+
+/// What lies beyond the ends of the hypothesis by more than a radius is a guess.
+void drop_beyond(const std::array<float, 2>& beyond_m, float radius_m, Judged& judged) {
+  const float step_m = geometry::length(judged.nodes) / (kNodes - 1);
+  for (std::size_t i = 0; i < kNodes; ++i) {
+    const auto along_m = step_m * static_cast<float>(i);
+    const float from_last_m = step_m * static_cast<float>(kNodes - 1 - i);
+    if (along_m < beyond_m[0] - radius_m || from_last_m < beyond_m[1] - radius_m) {
+      judged.support[i] = 0;
+    }
+  }
+}
+
+}  // namespace
 
 Judge::Chosen Judge::choose(SecondLook look, const Sampled& sampled) const {
   Chosen chosen{.look = std::move(look)};
@@ -32,8 +51,6 @@ Judge::Chosen Judge::choose(SecondLook look, const Sampled& sampled) const {
 }
 
 Result<Judged> Judge::settle(Chosen chosen, const Sampled& sampled) const {
-  const auto moved = refined(chosen.returned, chosen.candidates, frame_, refine_);
-  if (!moved) return moved.error();
   Judged judged;
   judged.look = std::move(chosen.look);
   judged.returned = std::move(chosen.returned);
@@ -41,7 +58,15 @@ Result<Judged> Judge::settle(Chosen chosen, const Sampled& sampled) const {
   judged.nodes = returned.draw >= 0
                      ? sampled.prediction.draws[static_cast<std::size_t>(returned.draw)]
                      : judged.look.hypotheses[returned.hypothesis].prior.nodes;
-  if (*moved) judged.nodes = **moved;
+  judged.support = judged.look.hypotheses[returned.hypothesis].prior.support;
+  const bool prior = returned.draw < 0 && returned.origin != Origin::kFrameBefore;
+  if (refine_ != nullptr && prior && returned.hypothesis < chosen.candidates.size()) {
+    const auto moved = refined(chosen.candidates[returned.hypothesis], judged.look, frame_,
+                               *refine_, !hints_.ends.empty());
+    if (!moved) return moved.error();
+    judged.nodes = moved->nodes;
+    drop_beyond(moved->beyond_m, chosen.candidates[returned.hypothesis].radius_m, judged);
+  }
   judged.one_rope = gate::one_rope(judged.nodes, frame_, conditions_.paths.rope_width_px);
   judged.confidence = gate::doubted(returned.confidence, judged.one_rope);
   return judged;
@@ -72,7 +97,7 @@ Estimate conclude(Judged judged, std::vector<DrawReport> draws, const gate::Dila
   estimate.origin = returned.origin;
   estimate.draw = returned.draw;
   estimate.nodes = judged.nodes;
-  estimate.support = hypotheses[returned.hypothesis].prior.support;
+  estimate.support = judged.support;
   estimate.closed = hypotheses[returned.hypothesis].evidence.closed;
   estimate.sigma_m = returned.sigma_m;
   estimate.mask_agreement = mask.agreement(estimate.nodes, frame.intrinsics);

@@ -2,6 +2,8 @@
 // sure, and what the caller gets of it.
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -39,9 +41,10 @@ struct Sampled {
 struct Judged {
   SecondLook look;
   Returned returned;
-  Centerline nodes{};    ///< what is returned
-  OneRope one_rope;      ///< of these
-  float confidence = 0;  ///< as their doubts leave it
+  Centerline nodes{};                          ///< what is returned
+  std::array<std::uint8_t, kNodes> support{};  ///< [64] of these
+  OneRope one_rope;                            ///< of these
+  float confidence = 0;                        ///< as their doubts leave it
 };
 
 /// As the gate of one estimator has it. What it is made of has to outlive it.

@@ -58,11 +58,15 @@ Result<FieldFile> open_field(const Config& config, const weights::Place& beside)
   if (!loaded) return loaded.error();
   FieldFile file;
   if (loaded->refine && config.field != FieldChoice::kStrands) {
-    auto refine = refine::Network::create(*loaded->refine, cpu_back_end(1).make_program);
+    std::shared_ptr<const weights::TipWeights> tips;
+    if (loaded->tips) tips = std::make_shared<const weights::TipWeights>(*std::move(loaded->tips));
+    auto refine =
+        refine::Network::create(*loaded->refine, cpu_back_end(1).make_program, std::move(tips));
     if (!refine) return refine.error();
     file.refine = *std::move(refine);
   }
   loaded->refine.reset();
+  loaded->tips.reset();
   file.calibration = std::move(loaded->calibration);
   file.field = std::make_shared<const weights::FieldWeights>(*std::move(loaded));
   return file;

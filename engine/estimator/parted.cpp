@@ -284,6 +284,7 @@ Result<Parted> part_ropes(const Frame& frame, int ropes, const SeeAxes& see) {
   Parted parted;
   parted.paths = std::move(read->paths);
   parted.witness = std::move(read->witness);
+  parted.seen = std::move(read->seen);
   Parting(frame, parted).share_out();
   return parted;
 }

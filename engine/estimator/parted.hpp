@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "estimator/rope_readings.hpp"
@@ -21,6 +22,7 @@ struct Parted {
   std::vector<float> width_px;
   /// [height, width] the rope that a pixel shows, from 1; 0: none.
   std::vector<std::uint16_t> instances;
+  std::optional<field::FieldView> seen{};  ///< what a strand field shows, where it told them apart
 };
 
 /// With labels in the frame each that covers more than a speck of the mask is one rope; otherwise

@@ -1,7 +1,5 @@
 #include "estimator/refinement.hpp"
 
-#include "refine/refined.hpp"
-
 namespace flowdlo::estimator {
 
 refine::Curve curve_of(const gate::Candidate& candidate) {
@@ -9,16 +7,10 @@ refine::Curve curve_of(const gate::Candidate& candidate) {
           candidate.radius_m, candidate.pixel_m, candidate.noise_m};
 }
 
-Result<std::optional<Centerline>> refined(const Returned& returned,
-                                          const std::vector<gate::Candidate>& candidates,
-                                          const Frame& frame, refine::Network* network) {
-  const bool prior = returned.draw < 0 && returned.origin != Origin::kFrameBefore;
-  if (network == nullptr || !prior || returned.hypothesis >= candidates.size()) {
-    return std::optional<Centerline>();
-  }
-  auto nodes = refine::refined(curve_of(candidates[returned.hypothesis]), frame, *network);
-  if (!nodes) return nodes.error();
-  return std::optional(*nodes);
+Result<refine::Refined> refined(const gate::Candidate& prior, const SecondLook& look,
+                                const Frame& frame, refine::Network& network, bool ends_known) {
+  const bool ends = look.seen && prior.ring == 0 && !ends_known;
+  return refine::refined(curve_of(prior), frame, network, ends ? &*look.seen : nullptr);
 }
 
 }  // namespace flowdlo::estimator

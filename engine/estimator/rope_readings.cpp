@@ -108,13 +108,17 @@ Result<RopeReadings> read_ropes(const Frame& frame, int ropes, const SeeAxes& se
   auto seen = path::trace_ropes(frame, *axes, ropes, masked->guesses);
   if (!seen) return RopeReadings{*std::move(masked), std::vector(count, Witness::kDiffers)};
   RopeReadings first = witnessed(*std::move(seen), *masked);
+  first.seen = axes->view;
   if (all_sure(first)) return first;
   const auto closer = see(kCloser * first.paths.rope_width_px);
   if (!closer) return first;
   const auto other = path::trace_ropes(frame, *closer, ropes, masked->guesses);
   if (!other) return first;
   auto again = path::trace_ropes(frame, *axes, ropes, both(masked->guesses, other->guesses));
-  return again ? witnessed(*std::move(again), *masked) : first;
+  if (!again) return first;
+  RopeReadings result = witnessed(*std::move(again), *masked);
+  result.seen = std::move(first.seen);
+  return result;
 }
 
 float told_apart(float lead, Witness witness) {

@@ -2,6 +2,7 @@
 // mask alone where it is not; and which of them both looks have.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "estimator/see_axes.hpp"
@@ -21,7 +22,8 @@ enum class Witness {
 /// The ropes of a frame before pixels are given to them.
 struct RopeReadings {
   path::RopePaths paths;
-  std::vector<Witness> witness;  ///< [ropes]
+  std::vector<Witness> witness;            ///< [ropes]
+  std::optional<field::FieldView> seen{};  ///< what the field shows, where the paths are of it
 };
 
 /// Those of the axes that `see` shows, for strands that the mask merges lie apart there: by heed of

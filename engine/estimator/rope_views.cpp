@@ -26,6 +26,7 @@ RopeView::RopeView(const Parted& parted, std::size_t rope, const Frame& frame)
     : path_(parted.paths.ropes[rope]),
       width_px_(parted.width_px[rope]),
       filtered_(parted.paths.filtered),
+      seen_(parted.seen),
       original_(frame),
       mask_(frame.mask.size(), 0),
       depth_m_(frame.depth_m.begin(), frame.depth_m.end()) {
@@ -69,14 +70,16 @@ RopeView::RopeView(const Parted& parted, std::size_t rope, const Frame& frame)
   }
 }
 
-path::Traversals RopeView::traversals() const {
-  path::Traversals result;
+Traced RopeView::traced() const {
+  Traced traced;
+  traced.seen = seen_;
+  path::Traversals& result = traced.paths;
   result.ranked.push_back(path_);
   result.ranked.front().width_px = width_px_;
   result.rope_width_px = width_px_;
   result.strands = 1;
   result.filtered = filtered_;
-  return result;
+  return traced;
 }
 
 Frame RopeView::frame() const {

@@ -3,8 +3,10 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
+#include "estimator/conditions.hpp"
 #include "estimator/parted.hpp"
 #include "flowdlo/frame.hpp"
 #include "path/path.hpp"
@@ -21,13 +23,14 @@ class RopeView {
   /// Views into this object and into the images of the frame given.
   [[nodiscard]] Frame frame() const;
 
-  /// The rope's way through it, as it was found among the others.
-  [[nodiscard]] path::Traversals traversals() const;
+  /// The rope's way through it, as it was found among the others, and what the field shows there.
+  [[nodiscard]] Traced traced() const;
 
  private:
   path::Path path_;
   float width_px_;
   bool filtered_;
+  std::optional<field::FieldView> seen_;
   Frame original_;
   std::vector<std::uint8_t> mask_;
   std::vector<float> depth_m_;

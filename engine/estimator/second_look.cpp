@@ -56,9 +56,7 @@ Result<path::Traversals> trace_seen(field::Network& network, const Frame& frame,
   const auto seen = field::see(frame, rope_width_px, network, false, pool);
   if (!seen) return seen.error();
   axes = field::axes(*seen);
-  auto paths = path::trace_strands(frame, *axes, config);
-  axes->view = {};  // of a large mask many megabytes, and the lines are enough from here on
-  return paths;
+  return path::trace_strands(frame, *axes, config);
 }
 
 bool same_place(const Hypothesis& a, const Hypothesis& b, double radius_m) {
@@ -124,6 +122,7 @@ SecondLook joined(const std::vector<Reading>& readings, const Reading* seen,
   look.readings = static_cast<int>(readings.size());
   look.hypotheses = pooled(readings, radius_m);
   look.axes = conditions.axes;
+  look.seen = conditions.seen;
   count_votes(readings, radius_m, look.hypotheses);
   for (Hypothesis& hypothesis : look.hypotheses) {
     hypothesis.seen_odds =
@@ -183,7 +182,8 @@ std::vector<Rereading::Read> Rereading::planned(bool doubtful) const {
   if (field_ != nullptr && worth_rereading(conditions_, frame_)) {
     reads.push_back({Kind::kCloserField});
   }
-  if (!conditions_.of_mask) reads.push_back({Kind::kMask});
+  const bool sees_less = frame_.color_bgr.empty() || reads.empty();
+  if (!conditions_.of_mask && sees_less) reads.push_back({Kind::kMask});
   if (limits_.budget == nullptr) return reads;
   for (Read& read : reads) read.expected_ms = cost_of(read.kind).of(amount_of(read.kind));
   return reads;
@@ -246,7 +246,11 @@ SecondLook Rereading::finish() {
   }
   SecondLook look = joined(readings, seen, conditions_, frame_);
   look.left_out = left_out;
-  if (axes_) look.axes = std::move(axes_);
+  if (axes_) {
+    look.seen = std::move(axes_->view);
+    axes_->view = {};
+    look.axes = std::move(axes_);
+  }
   return look;
 }
 

@@ -46,11 +46,12 @@ struct ReadingLimits {
 
 /// All readings of a frame.
 struct SecondLook {
-  int readings = 1;                      ///< of the frame, the first among them
-  std::vector<Hypothesis> hypotheses{};  ///< those of the first reading as they were, best first,
-                                         ///< then others that run elsewhere, best first
-  std::optional<field::Axes> axes{};     ///< what the strand field shows, where it was asked
-  bool left_out = false;                 ///< a further reading, for want of time
+  int readings = 1;                        ///< of the frame, the first among them
+  std::vector<Hypothesis> hypotheses{};    ///< those of the first reading as they were, best first,
+                                           ///< then others that run elsewhere, best first
+  std::optional<field::Axes> axes{};       ///< what the strand field shows, where it was asked
+  std::optional<field::FieldView> seen{};  ///< of the field, from its closest look
+  bool left_out = false;                   ///< a further reading, for want of time
 };
 
 /// The first reading alone.
@@ -61,8 +62,9 @@ class Rereading {
  public:
   /// None of a frame that is not `doubtful`. Otherwise, where there is a field and it may be surer
   /// (`worth_rereading`), the one along the axes that its network sees when the rope is magnified
-  /// by 1 / kCloser more; and the one of the mask alone, whose faults are others than a field's,
-  /// where that was not the first one (docs/accuracy.md).
+  /// by 1 / kCloser more. Of a frame without a picture, in which a field sees less, and where the
+  /// field does not look closer, also the one of the mask alone, unless that was the first one
+  /// (docs/accuracy.md).
   Rereading(threads::Pool& pool, bool doubtful, field::Network* field, const Conditions& conditions,
             const Frame& frame, const ReadConfig& config, const ReadingLimits& limits = {});
 

@@ -44,7 +44,7 @@ Result<void> several_ropes(const Frame& frame, int ropes, const EstimateOne& one
   std::optional<Error> first_fault;
   for (std::size_t i = 0; i < count; ++i) {
     const RopeView view(*parted, i, frame);
-    const path::Traversals traced = view.traversals();
+    const Traced traced = view.traced();
     auto rope = one(view.frame(), &traced, 1 / static_cast<double>(count - i));
     if (!rope) {
       if (rope.error().code == ErrorCode::kOutOfMemory) return rope.error();

@@ -3,6 +3,7 @@
 
 #include <functional>
 
+#include "estimator/conditions.hpp"
 #include "estimator/rope_readings.hpp"
 #include "flowdlo/estimate.hpp"
 #include "flowdlo/frame.hpp"
@@ -13,8 +14,7 @@ namespace flowdlo::estimator {
 
 /// One rope of a frame; along paths that are known already, or null; within that share, (0, 1], of
 /// the time that is left.
-using EstimateOne =
-    std::function<Result<Estimate>(const Frame&, const path::Traversals*, double share)>;
+using EstimateOne = std::function<Result<Estimate>(const Frame&, const Traced*, double share)>;
 
 /// Tells the ropes apart (`part_ropes`, `see` as there) and estimates each by `one`. One rope
 /// without labels is `one` of the frame itself. A rope that `one` fails of, as one without any

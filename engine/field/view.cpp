@@ -62,6 +62,10 @@ float FieldView::shown(const Vector2f& p, const Vector2f& along, bool below_only
   return std::min(1.0F, most);
 }
 
+float FieldView::at(const Vector2f& p, Channel channel) const {
+  return Surface(channels_).at(to_region(p), channel);
+}
+
 float FieldView::width_px(const Vector2f& p) const {
   const Surface::Spot spot = Surface(channels_).spot(to_region(p));
   if (spot.at(kRope) < 0.5F) return 0;

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 
+#include "field/channel.hpp"
 #include "field/strand_field.hpp"
 
 namespace flowdlo::field {
@@ -22,6 +23,9 @@ class FieldView {
   /// not `below_only` the one on top.
   [[nodiscard]] float shown(const Eigen::Vector2f& p, const Eigen::Vector2f& along,
                             bool below_only) const;
+
+  /// What the field says at `p`; 0 beside what it was asked about.
+  [[nodiscard]] float at(const Eigen::Vector2f& p, Channel channel) const;
 
   /// Width of the strand that shows at `p`, pixels of the frame; 0 where none does.
   [[nodiscard]] float width_px(const Eigen::Vector2f& p) const;

@@ -31,21 +31,10 @@ LinkFeatures stop_features(const EndFeatures& end) {
   return features;
 }
 
-LinkNetwork::LinkNetwork(const weights::LinkWeights& weights)
-    : hidden_(weights.at("hidden").values.data(), weights::kLinkHidden, weights::kLinkInputs),
-      bent_(weights.at("bent").values.data(), weights::kLinkHidden),
-      straight_(weights.at("straight").values.data(), weights::kLinkInputs) {}
-
-float LinkNetwork::energy(const LinkFeatures& stop) const { return energy_of_odds(against(stop)); }
+float LinkNetwork::energy(const LinkFeatures& stop) const { return energy_of_odds(against_(stop)); }
 
 float LinkNetwork::energy(const LinkFeatures& forth, const LinkFeatures& back) const {
-  return energy_of_odds(0.5F * (against(forth) + against(back)));
-}
-
-float LinkNetwork::against(const LinkFeatures& features) const {
-  const Eigen::Map<const Eigen::VectorXf> x(features.data(), features.size());
-  const Eigen::VectorXf bends = (hidden_ * x).array().tanh();
-  return straight_.dot(x) + bent_.dot(bends);
+  return energy_of_odds(0.5F * (against_(forth) + against_(back)));
 }
 
 }  // namespace flowdlo::path

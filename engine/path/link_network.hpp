@@ -3,11 +3,11 @@
 // field whose file it is in.
 #pragma once
 
-#include <Eigen/Core>
 #include <array>
 #include <cstddef>
 
 #include "path/link_evidence.hpp"
+#include "weights/bent_network.hpp"
 #include "weights/link_weights.hpp"
 
 namespace flowdlo::path {
@@ -31,7 +31,7 @@ using LinkFeatures = std::array<float, kLinkFeatures>;
 /// Energies are negative logarithms of likelihoods. Borrows the weights.
 class LinkNetwork {
  public:
-  explicit LinkNetwork(const weights::LinkWeights& weights);
+  explicit LinkNetwork(const weights::LinkWeights& weights) : against_(weights) {}
 
   /// The same whichever end comes first.
   [[nodiscard]] float link(const PairFeatures& pair, const LinkSide& a, const LinkSide& b) const {
@@ -44,13 +44,7 @@ class LinkNetwork {
   [[nodiscard]] float energy(const LinkFeatures& forth, const LinkFeatures& back) const;
 
  private:
-  using Matrix = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-
-  [[nodiscard]] float against(const LinkFeatures& features) const;
-
-  Eigen::Map<const Matrix> hidden_;
-  Eigen::Map<const Eigen::VectorXf> bent_;
-  Eigen::Map<const Eigen::VectorXf> straight_;
+  weights::BentNetwork against_;  // log odds against it
 };
 
 }  // namespace flowdlo::path

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <string>
+#include <utility>
 
 namespace flowdlo::refine {
 namespace {
@@ -37,8 +38,13 @@ std::vector<float> map_of_blocks() {
 }  // namespace
 
 Result<Network> Network::create(const weights::RefineWeights& weights,
-                                const ProgramFactory& make_program) {
+                                const ProgramFactory& make_program,
+                                std::shared_ptr<const weights::TipWeights> tips) {
   Network network;
+  network.tip_weights_ = std::move(tips);
+  if (network.tip_weights_) {
+    network.tips_ = std::make_unique<const TipNetwork>(*network.tip_weights_);
+  }
   auto program = make_program();
   network.map_ = program->input("refine map", kBlocks, kMapColumns);
   network.input_ = program->input("refine input", kStations, weights::kRefineInputs);

@@ -9,7 +9,9 @@
 #include "flowdlo/result.hpp"
 #include "ops/program.hpp"
 #include "refine/strip.hpp"
+#include "refine/tips.hpp"
 #include "weights/refine_weights.hpp"
+#include "weights/tip_weights.hpp"
 
 namespace flowdlo::refine {
 
@@ -25,9 +27,13 @@ struct Offset {
 /// neighbours of both. What a node's stations say is averaged.
 class Network {
  public:
-  /// Fails as ops::Program::build does.
-  [[nodiscard]] static Result<Network> create(const weights::RefineWeights& weights,
-                                              const ProgramFactory& make_program);
+  /// `tips`: of the network that finds tips; null: none does. Fails as ops::Program::build does.
+  [[nodiscard]] static Result<Network> create(
+      const weights::RefineWeights& weights, const ProgramFactory& make_program,
+      std::shared_ptr<const weights::TipWeights> tips = nullptr);
+
+  /// Null where there is none.
+  [[nodiscard]] const TipNetwork* tips() const { return tips_.get(); }
 
   /// Fails with kDeviceLost.
   [[nodiscard]] Result<std::array<Offset, kNodes>> see(const Strip& strip);
@@ -35,6 +41,8 @@ class Network {
  private:
   Network() = default;
 
+  std::shared_ptr<const weights::TipWeights> tip_weights_;
+  std::unique_ptr<const TipNetwork> tips_;  // of these
   std::unique_ptr<ops::Program> program_;
   ops::Tensor map_;
   ops::Tensor input_;

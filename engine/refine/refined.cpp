@@ -15,9 +15,10 @@ float within_reach(float radii) { return std::clamp(radii, -kMostOffset, kMostOf
 
 }  // namespace
 
-Result<Centerline> refined(const Curve& curve, const Frame& frame, Network& network) {
+Result<Refined> refined(const Curve& curve, const Frame& frame, Network& network,
+                        const field::FieldView* seen) {
   const auto strip = strip_along(curve, frame);
-  if (!strip) return curve.nodes;
+  if (!strip) return Refined{curve.nodes};
   const auto offsets = network.see(*strip);
   if (!offsets) return offsets.error();
   const auto frames = local_frames(curve.nodes);
@@ -30,7 +31,19 @@ Result<Centerline> refined(const Curve& curve, const Frame& frame, Network& netw
                                                     within_reach(offset.aside) * frames[i]->aside);
     if (moved.z() > geometry::kLeastDepth_m) nodes[i] = geometry::to_point(moved);
   }
-  return nodes;
+  Refined refined{nodes};
+  if (seen == nullptr || network.tips() == nullptr) return refined;
+  for (const bool last : {false, true}) {
+    const float widths = network.tips()->beyond(tip_features(curve, last, frame, *seen));
+    refined.beyond_m[last ? 1 : 0] = 2 * curve.radius_m * widths;
+  }
+  const Centerline whole = to_the_tips(nodes, refined.beyond_m);
+  const bool usable = std::all_of(whole.begin(), whole.end(), [](const Point3& node) {
+    return std::isfinite(node.x) && std::isfinite(node.y) && node.z > geometry::kLeastDepth_m;
+  });
+  if (!usable) return Refined{nodes};
+  refined.nodes = whole;
+  return refined;
 }
 
 }  // namespace flowdlo::refine

@@ -31,14 +31,16 @@ constexpr int kMostCoarse = 448;
 
 using Fields = std::map<std::string, std::string>;
 
-std::string text_of(const Fields& fields, const char* key, std::vector<std::string>& faults) {
+std::string text_of(const Fields& fields, const std::string& key,
+                    std::vector<std::string>& faults) {
   const auto found = fields.find(key);
   if (found != fields.end()) return found->second;
   faults.push_back(fmt::format("metadata {}: expected text, got none", key));
   return {};
 }
 
-int channels_of(const Fields& fields, const char* key, int most, std::vector<std::string>& faults) {
+int channels_of(const Fields& fields, const std::string& key, int most,
+                std::vector<std::string>& faults) {
   const std::string text = text_of(fields, key, faults);
   int value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
@@ -50,7 +52,7 @@ int channels_of(const Fields& fields, const char* key, int most, std::vector<std
 }
 
 /// Whether the file says that it holds the network of that name beside the field's.
-bool holds(const Fields& fields, const char* key, std::string_view version,
+bool holds(const Fields& fields, const std::string& key, std::string_view version,
            std::vector<std::string>& faults) {
   const auto found = fields.find(key);
   if (found == fields.end()) return false;
@@ -61,14 +63,31 @@ bool holds(const Fields& fields, const char* key, std::string_view version,
   return false;
 }
 
+/// A network that the file may hold beside the field's.
+struct Part {
+  std::string name;  ///< of the section, of its version and, with "_notes", of its notes
+  std::string_view version;
+  std::optional<Section> FieldWeights::*section;
+  std::vector<Expected> (*manifest)();
+};
+
+/// In the order in which they lie there.
+const std::array<Part, 3> kParts{
+    {{"refine", kRefineVersion, &FieldWeights::refine, refine_manifest},
+     {"links", kLinksVersion, &FieldWeights::links, links_manifest},
+     {"tips", kTipsVersion, &FieldWeights::tips, tips_manifest}}};
+
+std::string notes_of(const Part& part) { return fmt::format("{}_notes", part.name); }
+
 /// The field's tensors, then those of the networks that the file holds beside it.
 std::vector<Expected> whole_manifest(const FieldWeights& weights) {
   auto expected = field_manifest(weights.sizes);
   const auto add = [&](std::vector<Expected> more) {
     std::move(more.begin(), more.end(), std::back_inserter(expected));
   };
-  if (weights.refine) add(refine_manifest());
-  if (weights.links) add(links_manifest());
+  for (const Part& part : kParts) {
+    if (weights.*part.section) add(part.manifest());
+  }
   return expected;
 }
 
@@ -131,11 +150,9 @@ Result<FieldWeights> parse_field(std::span<const std::uint8_t> bytes,
   weights.sizes = {channels_of(parsed.metadata, "fine", kMostFine, faults),
                    channels_of(parsed.metadata, "middle", kMostMiddle, faults),
                    channels_of(parsed.metadata, "coarse", kMostCoarse, faults)};
-  if (holds(parsed.metadata, "refine", kRefineVersion, faults)) {
-    weights.refine.emplace().notes = text_of(parsed.metadata, "refine_notes", faults);
-  }
-  if (holds(parsed.metadata, "links", kLinksVersion, faults)) {
-    weights.links.emplace().notes = text_of(parsed.metadata, "links_notes", faults);
+  for (const Part& part : kParts) {
+    if (!holds(parsed.metadata, part.name, part.version, faults)) continue;
+    (weights.*part.section).emplace().notes = text_of(parsed.metadata, notes_of(part), faults);
   }
   weights.calibration = take_calibration(parsed.metadata, parsed.tensors, faults);
   if (!faults.empty()) return bad_weights(file, faults);
@@ -143,8 +160,10 @@ Result<FieldWeights> parse_field(std::span<const std::uint8_t> bytes,
   const auto matched = match(parsed.tensors, manifest, kReadable, faults);
   expect_finite(matched, faults);
   weights.tensors = decode(matched, manifest);
-  if (weights.links) weights.links->tensors = taken_off(weights.tensors, links_manifest());
-  if (weights.refine) weights.refine->tensors = taken_off(weights.tensors, refine_manifest());
+  for (auto part = kParts.rbegin(); part != kParts.rend(); ++part) {
+    auto& section = weights.*part->section;
+    if (section) section->tensors = taken_off(weights.tensors, part->manifest());
+  }
   const std::string expected = text_of(parsed.metadata, "sha256", faults);
   const std::string got = digest(matched);
   if (faults.empty() && expected != got) {
@@ -161,11 +180,9 @@ Result<void> save_field(const FieldWeights& weights, const std::filesystem::path
   std::vector<StoredTensor> stored;
   std::vector<const Tensor*> tensors;
   for (const Tensor& tensor : weights.tensors) tensors.push_back(&tensor);
-  if (weights.refine) {
-    for (const Tensor& tensor : weights.refine->tensors) tensors.push_back(&tensor);
-  }
-  if (weights.links) {
-    for (const Tensor& tensor : weights.links->tensors) tensors.push_back(&tensor);
+  for (const Part& part : kParts) {
+    if (!(weights.*part.section)) continue;
+    for (const Tensor& tensor : (weights.*part.section)->tensors) tensors.push_back(&tensor);
   }
   for (const Tensor* const of : tensors) {
     const Tensor& tensor = *of;
@@ -191,13 +208,10 @@ Result<void> save_field(const FieldWeights& weights, const std::filesystem::path
                 {"middle", std::to_string(weights.sizes.middle)},
                 {"coarse", std::to_string(weights.sizes.coarse)},
                 {"sha256", digest(all)}};
-  if (weights.refine) {
-    fields.emplace("refine", kRefineVersion);
-    fields.emplace("refine_notes", weights.refine->notes);
-  }
-  if (weights.links) {
-    fields.emplace("links", kLinksVersion);
-    fields.emplace("links_notes", weights.links->notes);
+  for (const Part& part : kParts) {
+    if (!(weights.*part.section)) continue;
+    fields.emplace(part.name, part.version);
+    fields.emplace(notes_of(part), (weights.*part.section)->notes);
   }
   if (weights.calibration) {
     put_calibration(*weights.calibration, fields, stored, encoded, faults);

@@ -1,5 +1,5 @@
 // FieldWeights: the network of room `field`, as a .safetensors file beside the velocity model's,
-// and with it that of room `refine`, and the one by which room `path` links strands.
+// and with it those of room `refine`, and the one by which room `path` links strands.
 #pragma once
 
 #include <cstdint>
@@ -14,6 +14,7 @@
 #include "weights/link_weights.hpp"
 #include "weights/location.hpp"
 #include "weights/refine_weights.hpp"
+#include "weights/tip_weights.hpp"
 #include "weights/weights.hpp"
 
 namespace flowdlo::weights {
@@ -38,8 +39,9 @@ struct FieldWeights {
   std::string notes;          ///< free text: training command, device, validation table
   FieldSizes sizes;
   std::vector<Tensor> tensors;               ///< exactly field_manifest()'s, in its order
-  std::optional<RefineWeights> refine{};     ///< where the file holds that network as well
-  std::optional<LinkWeights> links{};        ///< and the one that links its strands,
+  std::optional<RefineWeights> refine{};     ///< where the file holds that network as well,
+  std::optional<LinkWeights> links{};        ///< the one that links its strands,
+  std::optional<TipWeights> tips{};          ///< the one that finds tips,
   std::optional<Calibration> calibration{};  ///< and what the gate was fitted to beside this field
 
   /// The tensor of that name. It must be one of the manifest's.

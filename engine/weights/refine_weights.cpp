@@ -11,10 +11,6 @@ constexpr std::string_view kPrefix = "refine.";
 
 }  // namespace
 
-const Tensor& RefineWeights::at(std::string_view wanted) const {
-  return named(tensors, fmt::format("{}{}", kPrefix, wanted));
-}
-
 std::vector<Expected> refine_manifest() {
   std::vector<Expected> expected;
   const auto add = [&](const std::string& name, int out, int taps, int in) {

@@ -1,13 +1,12 @@
-// RefineWeights: the network of room `refine`. Its tensors lie beside the strand field's, in the
-// same .safetensors file, under "refine."; a file without them is one without that network.
+// RefineWeights: the network that moves nodes deep and aside (room `refine`). It lies in the strand
+// field's file as its section "refine"; a file without it is one without that network.
 #pragma once
 
 #include <cstdint>
-#include <string>
 #include <string_view>
 #include <vector>
 
-#include "weights/weights.hpp"
+#include "weights/section.hpp"
 
 namespace flowdlo::weights {
 
@@ -18,13 +17,7 @@ inline constexpr int kRefineWidth = 64;                  ///< channels of each c
 inline constexpr int kRefineSquares = 4;                 ///< convolutions of 3 x 3
 inline constexpr int kRefineOutputs = 16;  ///< columns that kernels take; two are used
 
-struct RefineWeights {
-  std::string notes;            ///< free text: how it was trained
-  std::vector<Tensor> tensors;  ///< exactly refine_manifest()'s, in its order
-
-  /// The tensor of that name, without "refine.". It must be one of the manifest's.
-  [[nodiscard]] const Tensor& at(std::string_view name) const;
-};
+using RefineWeights = Section;
 
 /// Names and shapes: of each convolution a weight [out, taps, in] and a bias [out]. "stem",
 /// "square.0" and further, "head".

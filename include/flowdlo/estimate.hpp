@@ -106,7 +106,8 @@ struct OneRope {
 enum class LeftOut {
   kModel,     ///< its draws: the estimate is a prior
   kField,     ///< the strand field
-  kReadings,  ///< further readings of a doubtful frame: the strand field closer, the mask alone
+  kReadings,  ///< further readings of a doubtful frame: the strand field closer; without a picture
+              ///< also the mask alone
 };
 
 /// "model", "strand_field" or "readings".
@@ -149,7 +150,8 @@ struct Estimate {
   /// [64] metres. Calibrated gate: 68 % of nodes are nearer to the truth than this and 95 % nearer
   /// than twice this, doubt about the traversal included. Thesis gate: not calibrated.
   std::array<float, kNodes> sigma_m{};
-  int readings = 1;  ///< of the frame: strand field, closer, mask alone; 1: the first left no doubt
+  int readings = 1;  ///< of the frame: strand field, closer, without a picture the mask alone; 1:
+                     ///< the first left no doubt
   Source source = Source::kPrior;  ///< which branch of Eq. (3.33)
   Origin origin = Origin::kFirstPrior;
   int draw = -1;            ///< index of the returned draw; -1: the prior

@@ -30,6 +30,7 @@ void add_reports(CLI::App& app, support::ExitCode& exit_code) {
   add_gate_fit(app, exit_code);
   add_energy_fit(app, exit_code);
   add_link_fit(app, exit_code);
+  add_tip_fit(app, exit_code);
   add_field_report(app, exit_code);
   add_reading_report(app, exit_code);
   add_ropes_report(app, exit_code);

@@ -21,6 +21,7 @@ void add_field_report(CLI::App& program, support::ExitCode& exit_code);
 void add_reading_report(CLI::App& program, support::ExitCode& exit_code);
 void add_energy_fit(CLI::App& program, support::ExitCode& exit_code);
 void add_link_fit(CLI::App& program, support::ExitCode& exit_code);
+void add_tip_fit(CLI::App& program, support::ExitCode& exit_code);
 void add_gate_fit(CLI::App& program, support::ExitCode& exit_code);
 
 }  // namespace flowdlo::lab

@@ -9,6 +9,7 @@
 #include "field/network.hpp"
 #include "flow/sampler.hpp"
 #include "flowdlo/weights.hpp"
+#include "gate_fit/bare.hpp"
 #include "gate_fit/sample_file.hpp"
 #include "one_rope/two_ropes.hpp"
 #include "progress_bar.hpp"
@@ -24,7 +25,6 @@ namespace {
 constexpr std::uint64_t kLengthKnownEvery = 4;
 constexpr std::uint64_t kApart = 500000;  // between scenes with and without the model
 constexpr const char* kPairs = "pairs";   // a split of two drawn ropes in one mask
-constexpr std::uint64_t kBareEvery = 12;  // frames of which five lack something
 constexpr int kPixels = 1280 * 720;
 
 /// Scenes of another kind, one on so many of the split.
@@ -49,20 +49,6 @@ struct Batch {
 /// worth.
 double known_length_m(const SampleOrigin& origin, std::uint64_t index, double length_m) {
   return origin.part == "training" && index % kLengthKnownEvery == 0 ? length_m : 0;
-}
-
-/// Some frames come without a picture, some with depth on the mask alone, some with neither: what
-/// a strand field says of them is weighed as well.
-void lay_bare(FrameFolder& frame, std::uint64_t index) {
-  const std::uint64_t turn = index % kBareEvery;
-  const bool both = turn == 5;
-  const bool no_picture = both || turn == 1 || turn == 7;
-  const bool rope_depth_alone = both || turn == 3 || turn == 9;
-  if (no_picture) frame.color_bgr.clear();
-  if (!rope_depth_alone) return;
-  for (std::size_t i = 0; i < frame.depth_m.size(); ++i) {
-    if (frame.mask[i] == 0) frame.depth_m[i] = 0;
-  }
 }
 
 Result<flow::Sampler> sampler_of(const GatherConfig& config, const Model& model) {
@@ -90,7 +76,9 @@ Result<Networks> networks_of(const Model& model, bool unrefined) {
   if (!field) return field.error();
   networks.field = *std::move(field);
   if (unrefined || !model.field->refine) return networks;
-  auto refine = refine::Network::create(*model.field->refine, make_program);
+  std::shared_ptr<const weights::TipWeights> tips;
+  if (model.field->tips) tips = {model.field, &*model.field->tips};
+  auto refine = refine::Network::create(*model.field->refine, make_program, std::move(tips));
   if (!refine) return refine.error();
   networks.refine = *std::move(refine);
   return networks;
@@ -196,8 +184,13 @@ std::string field_of(const GatherConfig& config) {
   if (config.field.empty()) return "";
   const auto weights = weights::load_field(config.field);
   if (!weights) return "";
-  const bool refines = weights->refine && !config.unrefined;
-  return weights->notes + (refines ? "; refined: " + weights->refine->notes : "");
+  std::string field = weights->notes;
+  if (weights->links) field += "; linked: " + weights->links->notes;
+  if (weights->refine && !config.unrefined) {
+    field += "; refined: " + weights->refine->notes;
+    if (weights->tips) field += "; tips: " + weights->tips->notes;
+  }
+  return field;
 }
 
 }  // namespace

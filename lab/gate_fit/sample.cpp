@@ -78,11 +78,10 @@ std::optional<GateSample> measure(const synth::SyntheticFrame& scene, flow::Samp
                                  drawn->reports, drawn->assigned, frame, rope_length_m);
   for (const gate::Candidate& candidate : sample.candidates) {
     if (refine == nullptr) break;
-    auto nodes = candidate.draw >= 0
-                     ? Result<Centerline>(candidate.nodes)
-                     : refine::refined(estimator::curve_of(candidate), frame, *refine);
-    if (!nodes) return std::nullopt;
-    sample.refined.push_back(*nodes);
+    auto refined = candidate.draw >= 0 ? Result<refine::Refined>(refine::Refined{candidate.nodes})
+                                       : estimator::refined(candidate, look, frame, *refine);
+    if (!refined) return std::nullopt;
+    sample.refined.push_back(refined->nodes);
   }
   for (std::size_t i = 0; i < sample.candidates.size(); ++i) {
     const auto one = gate::one_rope(sample.answer(i), frame, conditions->paths.rope_width_px);

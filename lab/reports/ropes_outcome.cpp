@@ -59,7 +59,7 @@ Result<Ropes> by_priors(const Frame& frame, const RopesRun& run, RopesOutcome& o
   for (std::size_t i = 0; i < parted->paths.ropes.size(); ++i) {
     const estimator::RopeView view(*parted, i, frame);
     Timings timings;
-    const path::Traversals traced = view.traversals();
+    const estimator::Traced traced = view.traced();
     const auto conditions = estimator::gather(view.frame(), {}, timings, &traced);
     if (!conditions) return conditions.error();
     Estimate rope;

@@ -101,7 +101,7 @@ std::optional<Offsets> measured(const synth::SyntheticFrame& scene, refine::Netw
     const auto nodes =
         refine::refined(estimator::curve_of(candidates.front()), scene.frame(), *network);
     if (!nodes) return std::nullopt;
-    const auto refined = offsets(*nodes, scene.truth(), scene.meta.radius_m);
+    const auto refined = offsets(nodes->nodes, scene.truth(), scene.meta.radius_m);
     if (refined) result = refined;
   }
   if (result) {

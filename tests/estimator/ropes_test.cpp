@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <optional>
 #include <set>
 #include <stdexcept>
@@ -13,12 +14,16 @@
 #include "estimator/rope_readings.hpp"
 #include "estimator/rope_views.hpp"
 #include "estimator/second_look.hpp"
+#include "estimator/see_axes.hpp"
+#include "field/network.hpp"
 #include "flowdlo/estimator.hpp"
 #include "geometry/polyline.hpp"
 #include "path/strand_reading.hpp"
+#include "reference/program.hpp"
 #include "scene/ropes.hpp"
 #include "scene/scene.hpp"
 #include "support/wave_frame.hpp"
+#include "weights/field_weights.hpp"
 
 namespace flowdlo {
 namespace {
@@ -408,7 +413,32 @@ TEST(RopeReadings, OfNoiseTheFieldIsNotAsked) {
   EXPECT_TRUE(read->paths.filtered);
   const auto parted = estimator::part_ropes(frame, 0, {});
   ASSERT_TRUE(parted) << parted.error().message;
-  EXPECT_TRUE(estimator::RopeView(*parted, 0, frame).traversals().filtered);
+  EXPECT_TRUE(estimator::RopeView(*parted, 0, frame).traced().paths.filtered);
+}
+
+TEST(RopeViews, TakeAlongWhatTheFieldShows) {
+  auto weights = weights::load_field(FLOWDLO_FIELD_WEIGHTS);
+  ASSERT_TRUE(weights) << weights.error().message;
+  auto network =
+      field::Network::create(std::make_shared<const weights::FieldWeights>(*std::move(weights)),
+                             [] { return reference::create_program(1); });
+  ASSERT_TRUE(network);
+  const auto scene = make_ropes(RopesKind::kCrossing, 2, 0);
+  const Frame frame = scene.frame();
+  const auto parted = estimator::part_ropes(frame, 0, estimator::seen_by(&*network, frame));
+  ASSERT_TRUE(parted) << parted.error().message;
+  ASSERT_EQ(parted->paths.ropes.size(), 2U);
+  for (std::size_t rope = 0; rope < 2; ++rope) {
+    const auto traced = estimator::RopeView(*parted, rope, frame).traced();
+    ASSERT_TRUE(traced.seen);
+    const auto& points = traced.paths.ranked.front().points_px;
+    const std::size_t place = points.size() / 10;
+    const Eigen::Vector2f along = (points[place + 2] - points[place]).normalized();
+    EXPECT_GT(traced.seen->shown(points[place + 1], along, false), 0.4F);
+  }
+  const auto masked = estimator::part_ropes(frame, 0);
+  ASSERT_TRUE(masked);
+  EXPECT_FALSE(estimator::RopeView(*masked, 0, frame).traced().seen) << "none was asked";
 }
 
 TEST(EstimateRopes, TheStrandFieldPartsARingFromARope) {

@@ -83,6 +83,17 @@ TEST_F(LookAgain, ATangleIsReadOnce) {
   EXPECT_EQ(look(true).readings, 1);
 }
 
+TEST_F(LookAgain, WhereThereIsAPictureTheFieldLooksCloserAndTheMaskIsNotRead) {
+  conditions_.of_mask = false;
+  EXPECT_EQ(look(true).readings, 3) << "without a picture both";
+  const std::vector<std::uint8_t> picture(
+      3 * static_cast<std::size_t>(frame_.width) * static_cast<std::size_t>(frame_.height), 90);
+  frame_.color_bgr = picture;
+  EXPECT_EQ(look(true).readings, 2);
+  conditions_.paths.strands = path::kMostRereadStrands + 1;
+  EXPECT_EQ(look(true).readings, 2) << "of a tangle the mask, for the field does not look closer";
+}
+
 TEST_F(LookAgain, WhatHasNoRopesShapeIsReadOnce) {
   auto& nodes = conditions_.hypotheses.front().prior.nodes;
   for (std::size_t i = 0; i < kNodes; ++i) nodes[i] = nodes[i / 16];  // a stub

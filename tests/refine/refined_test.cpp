@@ -32,12 +32,12 @@ TEST(Refined, MovesNodesAwayFromTheCameraAndAsideInRadii) {
   const auto nodes = refined(rope.curve(), rope.frame(), network);
   ASSERT_TRUE(nodes);
   for (std::size_t i = 0; i < kNodes; ++i) {
-    EXPECT_GT((*nodes)[i].z, before[i].z + 0.4F * StraightRope::kRadius_m);
+    EXPECT_GT(nodes->nodes[i].z, before[i].z + 0.4F * StraightRope::kRadius_m);
     // A rope from left to right in front of the camera: aside of it is down in the image.
-    EXPECT_NEAR((*nodes)[i].y - before[i].y, -StraightRope::kRadius_m,
+    EXPECT_NEAR(nodes->nodes[i].y - before[i].y, -StraightRope::kRadius_m,
                 0.02F * StraightRope::kRadius_m);
-    const float off = std::hypot((*nodes)[i].x - before[i].x, (*nodes)[i].y - before[i].y,
-                                 (*nodes)[i].z - before[i].z);
+    const float off = std::hypot(nodes->nodes[i].x - before[i].x, nodes->nodes[i].y - before[i].y,
+                                 nodes->nodes[i].z - before[i].z);
     EXPECT_NEAR(off, std::hypot(0.5F, 1.0F) * StraightRope::kRadius_m, 1e-6F);
   }
 }
@@ -49,8 +49,8 @@ TEST(Refined, NoFartherThanAllowed) {
   ASSERT_TRUE(nodes);
   const auto before = rope.curve().nodes;
   for (std::size_t i = 0; i < kNodes; ++i) {
-    const float off = std::hypot((*nodes)[i].x - before[i].x, (*nodes)[i].y - before[i].y,
-                                 (*nodes)[i].z - before[i].z);
+    const float off = std::hypot(nodes->nodes[i].x - before[i].x, nodes->nodes[i].y - before[i].y,
+                                 nodes->nodes[i].z - before[i].z);
     EXPECT_NEAR(off, kMostOffset * StraightRope::kRadius_m, 1e-6F);
   }
 }
@@ -62,7 +62,7 @@ TEST(Refined, ACurveWithoutAStripStaysAsItIs) {
   auto network = says(1, 1);
   const auto nodes = refined(curve, rope.frame(), network);
   ASSERT_TRUE(nodes);
-  for (std::size_t i = 0; i < kNodes; ++i) EXPECT_EQ((*nodes)[i].z, curve.nodes[i].z);
+  for (std::size_t i = 0; i < kNodes; ++i) EXPECT_EQ(nodes->nodes[i].z, curve.nodes[i].z);
 }
 
 TEST(Refined, NodesOnOnePointStayThere) {
@@ -72,7 +72,7 @@ TEST(Refined, NodesOnOnePointStayThere) {
   auto network = says(1, 1);
   const auto nodes = refined(curve, rope.frame(), network);
   ASSERT_TRUE(nodes);
-  for (const Point3& node : *nodes) EXPECT_EQ(node.z, curve.nodes[20].z);
+  for (const Point3& node : nodes->nodes) EXPECT_EQ(node.z, curve.nodes[20].z);
 }
 
 }  // namespace

@@ -202,6 +202,36 @@ TEST_F(FieldWeightsTest, AnotherVersionOfTheNetworkThatLinksIsRefused) {
   EXPECT_THAT(fault(), HasSubstr("metadata links: expected \"1\""));
 }
 
+TEST_F(FieldWeightsTest, TheNetworkThatFindsTipsComesBackBehindTheOthers) {
+  weights_.refine = seeded_refine(3);
+  weights_.links = seeded_links(4);
+  weights_.tips = seeded_tips(5);
+  weights_.tips->notes = "fitted to nothing";
+  ASSERT_TRUE(save_field(weights_, file()));
+  const auto loaded = load_field(file());
+  ASSERT_TRUE(loaded) << loaded.error().message;
+  ASSERT_TRUE(loaded->tips);
+  EXPECT_EQ(loaded->tips->notes, "fitted to nothing");
+  EXPECT_EQ(loaded->tensors.size(), weights_.tensors.size());
+  EXPECT_EQ(loaded->links->at("bent").shape, weights_.links->at("bent").shape);
+  for (const char* const name : {"hidden", "bent", "straight"}) {
+    const Tensor& got = loaded->tips->at(name);
+    const Tensor& want = weights_.tips->at(name);
+    EXPECT_EQ(got.shape, want.shape);
+    for (std::size_t i = 0; i < want.values.size(); ++i) {
+      ASSERT_NEAR(got.values[i], want.values[i], 1e-3F * std::abs(want.values[i]) + 1e-7F);
+    }
+  }
+}
+
+TEST_F(FieldWeightsTest, AFileWithoutANetworkOfTipsHasNone) {
+  weights_.links = seeded_links(4);
+  ASSERT_TRUE(save_field(weights_, file()));
+  const auto loaded = load_field(file());
+  ASSERT_TRUE(loaded);
+  EXPECT_FALSE(loaded->tips);
+}
+
 TEST_F(FieldWeightsTest, TensorsOfANetworkThatLinksAreChecked) {
   weights_.links = seeded_links(4);
   weights_.links->tensors.back().values.pop_back();
