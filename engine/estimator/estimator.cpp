@@ -228,7 +228,7 @@ Result<Estimate> Estimator::Impl::estimate(const Frame& frame, const Hints& hint
   stage = {};
   estimator::Rereading rereading(pool, doubtful, networks.field(), *conditions, frame, reading,
                                  limits(budget));
-  const bool draws_idle = estimator::draws_idle(calibrated(), conditions->axes.has_value());
+  const bool draws_idle = estimator::draws_idle(calibrated(), conditions->seen.has_value());
   const bool wanted = tensors != nullptr || config.quality == Quality::kFull || !draws_idle;
   const bool asked = wanted && (tensors != nullptr || budget.leaves(sampling_ms(rereading)));
   estimator::Sampled sampled;

@@ -45,7 +45,10 @@ Result<void> several_ropes(const Frame& frame, int ropes, const EstimateOne& one
   for (std::size_t i = 0; i < count; ++i) {
     const RopeView view(*parted, i, frame);
     const Traced traced = view.traced();
-    auto rope = one(view.frame(), &traced, 1 / static_cast<double>(count - i));
+    // A label says which pixels are a rope's: it is read in all ways, as one that is alone. That
+    // it is a ring its path alone knows.
+    const bool labelled = !frame.instances.empty() && !parted->paths.ropes[i].closed;
+    auto rope = one(view.frame(), labelled ? nullptr : &traced, 1 / static_cast<double>(count - i));
     if (!rope) {
       if (rope.error().code == ErrorCode::kOutOfMemory) return rope.error();
       if (rope.error().code == ErrorCode::kDeviceLost) return rope.error();

@@ -16,7 +16,8 @@ namespace flowdlo::estimator {
 /// the time that is left.
 using EstimateOne = std::function<Result<Estimate>(const Frame&, const Traced*, double share)>;
 
-/// Tells the ropes apart (`part_ropes`, `see` as there) and estimates each by `one`. One rope
+/// Tells the ropes apart (`part_ropes`, `see` as there) and estimates each by `one`, along the way
+/// that was found; one that a label tells apart by all that `one` finds in its view. One rope
 /// without labels is `one` of the frame itself. A rope that `one` fails of, as one without any
 /// depth, is left out as long as another is not. Expects a valid frame. Fails as part_ropes and
 /// `one` do.

@@ -441,6 +441,23 @@ TEST(RopeViews, TakeAlongWhatTheFieldShows) {
   EXPECT_FALSE(estimator::RopeView(*masked, 0, frame).traced().seen) << "none was asked";
 }
 
+TEST(EstimateRopes, ALabelledRopeIsReadAsOneThatIsAlone) {
+  const auto scene = make_ropes(RopesKind::kCrossing, 2, 1);
+  Frame frame = scene.frame();
+  frame.instances = scene.image.instances;
+  auto by_field = make_with_field(0);
+  const Ropes found = estimate(by_field, frame);
+  ASSERT_EQ(found.ropes.size(), 2U);
+  const auto parted = estimator::part_ropes(frame, 0);
+  ASSERT_TRUE(parted) << parted.error().message;
+  for (std::size_t rope = 0; rope < 2; ++rope) {
+    const estimator::RopeView view(*parted, rope, frame);
+    const auto alone = by_field.estimate(view.frame());
+    ASSERT_TRUE(alone) << alone.error().message;
+    EXPECT_TRUE(alone->nodes == found.ropes[0].nodes || alone->nodes == found.ropes[1].nodes);
+  }
+}
+
 TEST(EstimateRopes, TheStrandFieldPartsARingFromARope) {
   auto by_field = make_with_field(0);
   for (const std::uint64_t seed : {0, 1, 2}) {
