@@ -45,7 +45,11 @@ Judge::Chosen Judge::choose(SecondLook look, const Sampled& sampled) const {
   chosen.candidates =
       list_candidates(chosen.look, conditions_.paths.rope_width_px, sampled.prediction,
                       sampled.verdict.draws, sampled.assigned, frame_, rope_length_m_);
-  chosen.returned = by_score(chosen.candidates, *fitted_, hints_, conditions_, frame_,
+  const auto answer = [&](const gate::Candidate& candidate) {
+    if (refine_ == nullptr || candidate.draw >= 0) return candidate.nodes;
+    return with_tips(candidate, chosen.look, frame_, *refine_, rope_length_m_, hints_);
+  };
+  chosen.returned = by_score(chosen.candidates, answer, *fitted_, hints_, conditions_, frame_,
                              rope_length_m_, chosen.look);
   return chosen;
 }
@@ -62,7 +66,7 @@ Result<Judged> Judge::settle(Chosen chosen, const Sampled& sampled) const {
   const bool prior = returned.draw < 0 && returned.origin != Origin::kFrameBefore;
   if (refine_ != nullptr && prior && returned.hypothesis < chosen.candidates.size()) {
     const auto moved = refined(chosen.candidates[returned.hypothesis], judged.look, frame_,
-                               *refine_, !hints_.ends.empty());
+                               *refine_, rope_length_m_, hints_);
     if (!moved) return moved.error();
     judged.nodes = moved->nodes;
     drop_beyond(moved->beyond_m, chosen.candidates[returned.hypothesis].radius_m, judged);

@@ -3,6 +3,7 @@
 
 #include "estimator/second_look.hpp"
 #include "flowdlo/frame.hpp"
+#include "flowdlo/hints.hpp"
 #include "flowdlo/result.hpp"
 #include "gate/candidate.hpp"
 #include "refine/network.hpp"
@@ -15,9 +16,15 @@ namespace flowdlo::estimator {
 [[nodiscard]] refine::Curve curve_of(const gate::Candidate& candidate);
 
 /// As refine::refined() of a prior of this frame: the networks have seen no other. Its ends stay
-/// where they are `known`, where the rope is a ring, and where `look` has no strand field.
+/// where `hints` say where they are, where the rope is a ring, and where `look` has no strand
+/// field. `rope_length_m` 0: unknown.
 [[nodiscard]] Result<refine::Refined> refined(const gate::Candidate& prior, const SecondLook& look,
                                               const Frame& frame, refine::Network& network,
-                                              bool ends_known = false);
+                                              double rope_length_m, const Hints& hints = {});
+
+/// Its nodes with their ends where refined() would have them.
+[[nodiscard]] Centerline with_tips(const gate::Candidate& prior, const SecondLook& look,
+                                   const Frame& frame, const refine::Network& network,
+                                   double rope_length_m, const Hints& hints);
 
 }  // namespace flowdlo::estimator

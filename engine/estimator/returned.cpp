@@ -26,6 +26,14 @@ Origin origin_of(const Returned& returned, const std::vector<Hypothesis>& hypoth
   return returned.hypothesis == 0 ? Origin::kFirstPrior : Origin::kRunnerUp;
 }
 
+/// The candidates with the nodes that are held against the frame before, where there is one.
+std::vector<gate::Candidate> as_returned(std::vector<gate::Candidate> candidates,
+                                         const Answer& answer, const Hints& hints) {
+  if (!hints.previous) return candidates;
+  for (gate::Candidate& candidate : candidates) candidate.nodes = answer(candidate);
+  return candidates;
+}
+
 }  // namespace
 
 Returned by_thesis(const std::vector<Hypothesis>& hypotheses, const flow::Prediction& prediction,
@@ -43,10 +51,11 @@ Returned by_thesis(const std::vector<Hypothesis>& hypotheses, const flow::Predic
   return returned;
 }
 
-Returned by_score(const std::vector<gate::Candidate>& candidates, const gate::Fitted& fitted,
-                  const Hints& hints, const Conditions& conditions, const Frame& frame,
-                  double rope_length_m, SecondLook& look) {
-  gate::Beside beside{.log_prior = log_priors(candidates, hints, frame.intrinsics)};
+Returned by_score(const std::vector<gate::Candidate>& candidates, const Answer& answer,
+                  const gate::Fitted& fitted, const Hints& hints, const Conditions& conditions,
+                  const Frame& frame, double rope_length_m, SecondLook& look) {
+  gate::Beside beside{
+      .log_prior = log_priors(as_returned(candidates, answer, hints), hints, frame.intrinsics)};
   auto before = stayed(hints.previous, look.hypotheses, conditions, frame);
   if (before) {
     beside.guest =

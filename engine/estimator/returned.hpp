@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <functional>
 #include <vector>
 
 #include "estimator/conditions.hpp"
@@ -31,11 +32,14 @@ struct Returned {
                                  const flow::Prediction& prediction, const gate::Verdict& verdict,
                                  const std::vector<int>& assigned);
 
+/// The nodes that would be returned of a candidate, as the frame before has returned its own.
+using Answer = std::function<Centerline(const gate::Candidate&)>;
+
 /// What the fitted score and the hints prefer among the candidates, `list_candidates`. Where that
 /// is the rope as it was in the frame before, it joins the hypotheses of `look`.
 [[nodiscard]] Returned by_score(const std::vector<gate::Candidate>& candidates,
-                                const gate::Fitted& fitted, const Hints& hints,
-                                const Conditions& conditions, const Frame& frame,
-                                double rope_length_m, SecondLook& look);
+                                const Answer& answer, const gate::Fitted& fitted,
+                                const Hints& hints, const Conditions& conditions,
+                                const Frame& frame, double rope_length_m, SecondLook& look);
 
 }  // namespace flowdlo::estimator

@@ -18,12 +18,23 @@ struct Refined {
   std::array<float, 2> beyond_m{0, 0};  ///< by which it is longer at either end; negative: shorter
 };
 
+/// What the ends of a curve are moved by.
+struct EndsKnown {
+  const field::FieldView* seen = nullptr;  ///< what the strand field shows; null: they stay
+  double rope_length_m = 0;                ///< known length; 0: unknown
+};
+
+/// `nodes`, the curve's or those moved deep and aside, with their ends moved along to where the
+/// tips are, as refined() has it.
+[[nodiscard]] Refined with_tips(const Curve& curve, const Centerline& nodes, const Frame& frame,
+                                const Network& network, const EndsKnown& ends);
+
 /// The curve's nodes, each moved deep and aside, then its ends moved along to where the tips are
-/// (refine/tips.hpp), and 64 nodes again evenly between them. `seen`: what the strand field shows;
-/// null, or a network without tips: the ends stay where they are. All stay where the curve makes no
-/// strip, and a node where it would not be finite and in front of the camera. Fails as Network::see
-/// does.
+/// (refine/tips.hpp), and 64 nodes again evenly between them. What a known length lacks then,
+/// both are longer by, above all the one at which the field shows less of a tip. A network without
+/// tips leaves the ends where they are. All stay where the curve makes no strip, and where a node
+/// would not be finite and in front of the camera. Fails as Network::see does.
 [[nodiscard]] Result<Refined> refined(const Curve& curve, const Frame& frame, Network& network,
-                                      const field::FieldView* seen = nullptr);
+                                      const EndsKnown& ends = {});
 
 }  // namespace flowdlo::refine

@@ -147,12 +147,16 @@ std::vector<float> node_columns(const Curve& curve, const Frame& frame) {
 
 }  // namespace
 
-std::optional<Strip> strip_along(const Curve& curve, const Frame& frame) {
+bool can_be_seen(const Curve& curve) {
   const bool in_front = std::all_of(curve.nodes.begin(), curve.nodes.end(), [](const Point3& node) {
     return node.z > geometry::kLeastDepth_m && node.z < geometry::kMostDepth_m;
   });
-  if (!in_front || !geometry::all_finite(curve.nodes)) return std::nullopt;
-  if (!(curve.radius_m > geometry::kLeastDepth_m && curve.radius_m < 1)) return std::nullopt;
+  return in_front && geometry::all_finite(curve.nodes) &&
+         curve.radius_m > geometry::kLeastDepth_m && curve.radius_m < 1;
+}
+
+std::optional<Strip> strip_along(const Curve& curve, const Frame& frame) {
+  if (!can_be_seen(curve)) return std::nullopt;
   const auto stations = stations_of(curve, frame);
   const auto of_nodes = node_columns(curve, frame);
   constexpr std::size_t kOfNode = kColumnsUsed - kSigma;

@@ -62,7 +62,10 @@ struct Strip {
   std::vector<float> values;  ///< [kStations, weights::kRefineInputs], zero beyond kColumnsUsed
 };
 
-/// Nothing where a node is not in front of the camera, or the rope has no width.
+/// Whether its nodes are in front of the camera and the rope has a width.
+[[nodiscard]] bool can_be_seen(const Curve& curve);
+
+/// Nothing of a curve that cannot be seen.
 [[nodiscard]] std::optional<Strip> strip_along(const Curve& curve, const Frame& frame);
 
 }  // namespace flowdlo::refine

@@ -79,7 +79,8 @@ struct Config {
   /// How many ropes Estimator::estimate_ropes looks for where no Frame::instances tell; 0: as many
   /// as the mask shows, 1..kMostRopes: so many. Estimator::estimate answers one, whatever this is.
   int ropes = 1;
-  double rope_length_m = 0;  ///< of the whole rope, where known; 0: unknown. Helps at crossings.
+  double rope_length_m = 0;  ///< of the whole rope, where known; 0: unknown. Helps at crossings,
+                             ///< and says how much of it is hidden (docs/hints.md).
   int threads = 0;           ///< of the CPU back end; 0: one for each core
 
   /// Milliseconds that an estimate may take; 0: as long as it does. Of the model, the strand field

@@ -37,7 +37,7 @@ constexpr std::array<Setup, 9> kSetups{{
     {"strand field, its first prior", FieldChoice::kStrands, Quality::kFull, 1, 1, kOfWeights,
      true},
     {"strand field, judged", FieldChoice::kStrands, Quality::kFast, 1, 1, kOfWeights, false},
-    {"and nodes moved by a network: `fast`", FieldChoice::kBeside, Quality::kFast, 1, 1, kOfWeights,
+    {"and nodes and ends moved by networks: `fast`", FieldChoice::kBeside, Quality::kFast, 1, 1, kOfWeights,
      false},
     {"and the flow model, K = 1, D = 1", FieldChoice::kBeside, Quality::kFull, 1, 1, kOfWeights,
      false},

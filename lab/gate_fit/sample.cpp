@@ -78,8 +78,9 @@ std::optional<GateSample> measure(const synth::SyntheticFrame& scene, flow::Samp
                                  drawn->reports, drawn->assigned, frame, rope_length_m);
   for (const gate::Candidate& candidate : sample.candidates) {
     if (refine == nullptr) break;
-    auto refined = candidate.draw >= 0 ? Result<refine::Refined>(refine::Refined{candidate.nodes})
-                                       : estimator::refined(candidate, look, frame, *refine);
+    auto refined = candidate.draw >= 0
+                       ? Result<refine::Refined>(refine::Refined{candidate.nodes})
+                       : estimator::refined(candidate, look, frame, *refine, rope_length_m);
     if (!refined) return std::nullopt;
     sample.refined.push_back(refined->nodes);
   }

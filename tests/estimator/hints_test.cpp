@@ -327,5 +327,35 @@ TEST(Curve, RefusesWhatIsNoNumberOfPointsAndNodesThatAreNotFinite) {
   EXPECT_THAT(curve.error().message, HasSubstr("at node 9"));
 }
 
+/// By the weights that ship, which bring a network of tips.
+TEST(KnownLength, WhatTheFrameLacksOfItIsAddedAtTheEndsAndTheFrameBeforeKeepsIt) {
+  auto estimator = Estimator::create({.weights = FLOWDLO_DEFAULT_WEIGHTS, .device = "cpu"});
+  ASSERT_TRUE(estimator) << estimator.error().message;
+  const WaveFrame wave;
+  const auto seen = estimator->estimate(wave.frame());
+  ASSERT_TRUE(seen) << seen.error().message;
+  const auto seen_m = static_cast<double>(geometry::length(seen->nodes));
+
+  Hints hints;
+  hints.rope_length_m = 1.3 * seen_m;
+  const auto whole = estimator->estimate(wave.frame(), hints);
+  ASSERT_TRUE(whole) << whole.error().message;
+  const auto whole_m = static_cast<double>(geometry::length(whole->nodes));
+  EXPECT_NEAR(whole_m, 0.99 * 1.3 * seen_m, 0.01 * seen_m);
+  EXPECT_EQ(whole->support.front() & whole->support.back(), 0) << "one end at least is a guess";
+
+  hints.previous = whole->nodes;
+  const auto again = estimator->estimate(wave.frame(), hints);
+  ASSERT_TRUE(again) << again.error().message;
+  EXPECT_FALSE(again->switched);
+  EXPECT_LT(geometry::mean_distance(again->nodes, whole->nodes), 0.003);
+
+  hints.rope_length_m = seen_m;
+  hints.previous.reset();
+  const auto met = estimator->estimate(wave.frame(), hints);
+  ASSERT_TRUE(met);
+  EXPECT_EQ(met->nodes, seen->nodes);
+}
+
 }  // namespace
 }  // namespace flowdlo

@@ -155,7 +155,7 @@ TEST(Refined, EndsGoWhereTheNetworkOfTipsSaysBesideAField) {
   const auto before = rope.curve().nodes;
   auto network = moves_ends(says(std::asinh(1.0F / kTipUnit)));
   const field::FieldView seen;
-  const auto moved = refined(rope.curve(), rope.frame(), network, &seen);
+  const auto moved = refined(rope.curve(), rope.frame(), network, {&seen});
   ASSERT_TRUE(moved);
   for (const float m : moved->beyond_m) EXPECT_NEAR(m, 2 * StraightRope::kRadius_m, 1e-6F);
   EXPECT_NEAR(moved->nodes.front().x, before.front().x - 2 * StraightRope::kRadius_m, 1e-6F);
@@ -173,10 +173,37 @@ TEST(Refined, EachEndIsToldOfItself) {
   curve.unseen_m.back() = 0.01F;
   auto network = moves_ends(says(0, kTipUnsupported, std::asinh(-0.5F / kTipUnit)));
   const field::FieldView seen;
-  const auto moved = refined(curve, rope.frame(), network, &seen);
+  const auto moved = refined(curve, rope.frame(), network, {&seen});
   ASSERT_TRUE(moved);
   EXPECT_EQ(moved->beyond_m[0], 0);
   EXPECT_NEAR(moved->beyond_m[1], -StraightRope::kRadius_m, 1e-6F);
+}
+
+TEST(Refined, WhatAKnownLengthLacksIsAtTheEndsThatShowNoTip) {
+  const StraightRope rope;
+  const auto length_m = static_cast<double>(geometry::length(rope.curve().nodes));
+  auto network = moves_ends(says(0));
+  const field::FieldView seen;  // no tip at either end
+  const auto longer = refined(rope.curve(), rope.frame(), network, {&seen, 1.2 * length_m});
+  ASSERT_TRUE(longer);
+  for (const float m : longer->beyond_m) {  // a hundredth is tolerance
+    EXPECT_NEAR(static_cast<double>(m), 0.094 * length_m, 1e-3 * length_m);
+  }
+  EXPECT_NEAR(static_cast<double>(geometry::length(longer->nodes)), 1.188 * length_m,
+              1e-3 * length_m);
+}
+
+TEST(Refined, AKnownLengthThatIsNearlyMetOrFarOffChangesNothing) {
+  const StraightRope rope;
+  const auto length_m = static_cast<double>(geometry::length(rope.curve().nodes));
+  auto network = moves_ends(says(0));
+  const field::FieldView seen;
+  for (const double times : {0.5, 1.005, 3.0}) {
+    const auto same = refined(rope.curve(), rope.frame(), network, {&seen, times * length_m});
+    ASSERT_TRUE(same);
+    EXPECT_EQ(same->beyond_m[0], 0) << times;
+    EXPECT_EQ(same->beyond_m[1], 0) << times;
+  }
 }
 
 }  // namespace
