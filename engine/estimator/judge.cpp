@@ -21,15 +21,23 @@ struct Judge::Chosen {
 
 namespace {
 
-/// What lies beyond the ends of the hypothesis by more than a radius is a guess.
-void drop_beyond(const std::array<float, 2>& beyond_m, float radius_m, Judged& judged) {
+/// Of how far a node lies beyond what was read. Of 670 ends of `wide` training scenes whose rope
+/// goes on for three widths and more, straight on for as long is off by 0.36 of the way (68 %) and
+/// 1.17 (95 %).
+constexpr float kGuessed = 0.5F;
+
+/// What lies beyond the ends of the hypothesis by more than a radius is a guess: nothing supports
+/// it, and it is the farther off the longer the way.
+void own_to_guesses(const std::array<float, 2>& beyond_m, float radius_m, Judged& judged) {
   const float step_m = geometry::length(judged.nodes) / (kNodes - 1);
   for (std::size_t i = 0; i < kNodes; ++i) {
     const auto along_m = step_m * static_cast<float>(i);
     const float from_last_m = step_m * static_cast<float>(kNodes - 1 - i);
-    if (along_m < beyond_m[0] - radius_m || from_last_m < beyond_m[1] - radius_m) {
-      judged.support[i] = 0;
-    }
+    const float guessed_m = std::max(beyond_m[0] - along_m, beyond_m[1] - from_last_m);
+    if (guessed_m <= radius_m) continue;
+    judged.support[i] = 0;
+    float& sigma_m = judged.returned.sigma_m[i];
+    sigma_m = std::max(sigma_m, kGuessed * guessed_m);
   }
 }
 
@@ -69,7 +77,7 @@ Result<Judged> Judge::settle(Chosen chosen, const Sampled& sampled) const {
                                *refine_, rope_length_m_, hints_);
     if (!moved) return moved.error();
     judged.nodes = moved->nodes;
-    drop_beyond(moved->beyond_m, chosen.candidates[returned.hypothesis].radius_m, judged);
+    own_to_guesses(moved->beyond_m, chosen.candidates[returned.hypothesis].radius_m, judged);
   }
   judged.one_rope = gate::one_rope(judged.nodes, frame_, conditions_.paths.rope_width_px);
   judged.confidence = gate::doubted(returned.confidence, judged.one_rope);

@@ -343,6 +343,11 @@ TEST(KnownLength, WhatTheFrameLacksOfItIsAddedAtTheEndsAndTheFrameBeforeKeepsIt)
   const auto whole_m = static_cast<double>(geometry::length(whole->nodes));
   EXPECT_NEAR(whole_m, 0.99 * 1.3 * seen_m, 0.01 * seen_m);
   EXPECT_EQ(whole->support.front() & whole->support.back(), 0) << "one end at least is a guess";
+  const auto most_m = [](const Estimate& of) {
+    return static_cast<double>(std::max(of.sigma_m.front(), of.sigma_m.back()));
+  };
+  EXPECT_GT(most_m(*whole), 0.05 * seen_m) << "and says so";
+  EXPECT_LT(most_m(*seen), 0.05 * seen_m);
 
   hints.previous = whole->nodes;
   const auto again = estimator->estimate(wave.frame(), hints);
