@@ -48,8 +48,7 @@ Result<bool> read_seen(const Frame& frame, const ReadConfig& config, const SeeAx
     throw_what_ends_a_frame(lifted.error());
     return false;
   }
-  conditions.seen = std::move(axes->view);
-  axes->view = {};
+  conditions.seen = std::exchange(axes->view, {});
   conditions.axes = std::move(axes);
   return true;
 }

@@ -58,10 +58,8 @@ Result<FieldFile> open_field(const Config& config, const weights::Place& beside)
   if (!loaded) return loaded.error();
   FieldFile file;
   if (loaded->refine && config.field != FieldChoice::kStrands) {
-    std::shared_ptr<const weights::TipWeights> tips;
-    if (loaded->tips) tips = std::make_shared<const weights::TipWeights>(*std::move(loaded->tips));
     auto refine =
-        refine::Network::create(*loaded->refine, cpu_back_end(1).make_program, std::move(tips));
+        refine::Network::create(*loaded->refine, cpu_back_end(1).make_program, loaded->tips);
     if (!refine) return refine.error();
     file.refine = *std::move(refine);
   }

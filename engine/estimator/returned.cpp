@@ -26,10 +26,9 @@ Origin origin_of(const Returned& returned, const std::vector<Hypothesis>& hypoth
   return returned.hypothesis == 0 ? Origin::kFirstPrior : Origin::kRunnerUp;
 }
 
-/// The candidates with the nodes that are held against the frame before, where there is one.
+/// The candidates with the nodes that are held against the frame before.
 std::vector<gate::Candidate> as_returned(std::vector<gate::Candidate> candidates,
-                                         const Answer& answer, const Hints& hints) {
-  if (!hints.previous) return candidates;
+                                         const Answer& answer) {
   for (gate::Candidate& candidate : candidates) candidate.nodes = answer(candidate);
   return candidates;
 }
@@ -54,8 +53,10 @@ Returned by_thesis(const std::vector<Hypothesis>& hypotheses, const flow::Predic
 Returned by_score(const std::vector<gate::Candidate>& candidates, const Answer& answer,
                   const gate::Fitted& fitted, const Hints& hints, const Conditions& conditions,
                   const Frame& frame, double rope_length_m, SecondLook& look) {
-  gate::Beside beside{
-      .log_prior = log_priors(as_returned(candidates, answer, hints), hints, frame.intrinsics)};
+  gate::Beside beside{.log_prior =
+                          hints.previous
+                              ? log_priors(as_returned(candidates, answer), hints, frame.intrinsics)
+                              : log_priors(candidates, hints, frame.intrinsics)};
   auto before = stayed(hints.previous, look.hypotheses, conditions, frame);
   if (before) {
     beside.guest =

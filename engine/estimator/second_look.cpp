@@ -247,8 +247,7 @@ SecondLook Rereading::finish() {
   SecondLook look = joined(readings, seen, conditions_, frame_);
   look.left_out = left_out;
   if (axes_) {
-    look.seen = std::move(axes_->view);
-    axes_->view = {};
+    look.seen = std::exchange(axes_->view, {});
     look.axes = std::move(axes_);
   }
   return look;

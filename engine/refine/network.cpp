@@ -39,12 +39,9 @@ std::vector<float> map_of_blocks() {
 
 Result<Network> Network::create(const weights::RefineWeights& weights,
                                 const ProgramFactory& make_program,
-                                std::shared_ptr<const weights::TipWeights> tips) {
+                                const std::optional<weights::TipWeights>& tips) {
   Network network;
-  network.tip_weights_ = std::move(tips);
-  if (network.tip_weights_) {
-    network.tips_ = std::make_unique<const TipNetwork>(*network.tip_weights_);
-  }
+  if (tips) network.tips_ = std::make_unique<const TipNetwork>(*tips);
   auto program = make_program();
   network.map_ = program->input("refine map", kBlocks, kMapColumns);
   network.input_ = program->input("refine input", kStations, weights::kRefineInputs);

@@ -4,6 +4,7 @@
 #include <array>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "flowdlo/result.hpp"
@@ -27,10 +28,10 @@ struct Offset {
 /// neighbours of both. What a node's stations say is averaged.
 class Network {
  public:
-  /// `tips`: of the network that finds tips; null: none does. Fails as ops::Program::build does.
+  /// `tips`: of the network that finds tips; nothing: none does. Fails as ops::Program::build does.
   [[nodiscard]] static Result<Network> create(
       const weights::RefineWeights& weights, const ProgramFactory& make_program,
-      std::shared_ptr<const weights::TipWeights> tips = nullptr);
+      const std::optional<weights::TipWeights>& tips = std::nullopt);
 
   /// Null where there is none.
   [[nodiscard]] const TipNetwork* tips() const { return tips_.get(); }
@@ -41,8 +42,7 @@ class Network {
  private:
   Network() = default;
 
-  std::shared_ptr<const weights::TipWeights> tip_weights_;
-  std::unique_ptr<const TipNetwork> tips_;  // of these
+  std::unique_ptr<const TipNetwork> tips_;
   std::unique_ptr<ops::Program> program_;
   ops::Tensor map_;
   ops::Tensor input_;

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstddef>
+#include <utility>
 
 #include "field/view.hpp"
 #include "flowdlo/centerline.hpp"
@@ -63,14 +64,18 @@ inline constexpr float kTipUnit = 0.5F;
 
 class TipNetwork {
  public:
-  explicit TipNetwork(const weights::TipWeights& weights) : says_(weights) {}
+  explicit TipNetwork(weights::TipWeights weights)
+      : weights_(std::move(weights)), says_(weights_) {}
+  TipNetwork(const TipNetwork&) = delete;  // its numbers are borrowed from itself
+  TipNetwork& operator=(const TipNetwork&) = delete;
 
   /// How far beyond an end the tip lies, widths of the rope, within [-kMostBefore, kMostBeyond];
   /// 0 where what the network says is not finite.
   [[nodiscard]] float beyond(const TipFeatures& features) const;
 
  private:
-  weights::BentNetwork says_;  ///< borrows the weights
+  weights::TipWeights weights_;
+  weights::BentNetwork says_;  ///< of these
 };
 
 /// The curve through the nodes, `beyond_m` longer at each end, straight on; shorter where negative,

@@ -76,9 +76,7 @@ Result<Networks> networks_of(const Model& model, bool unrefined) {
   if (!field) return field.error();
   networks.field = *std::move(field);
   if (unrefined || !model.field->refine) return networks;
-  std::shared_ptr<const weights::TipWeights> tips;
-  if (model.field->tips) tips = {model.field, &*model.field->tips};
-  auto refine = refine::Network::create(*model.field->refine, make_program, std::move(tips));
+  auto refine = refine::Network::create(*model.field->refine, make_program, model.field->tips);
   if (!refine) return refine.error();
   networks.refine = *std::move(refine);
   return networks;

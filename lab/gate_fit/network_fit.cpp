@@ -173,4 +173,16 @@ NetworkWeights fit_mean_of_networks(NetworkTask task, int count) {
   return all;
 }
 
+weights::Section section_of(const NetworkWeights& fitted,
+                            const std::vector<weights::Expected>& manifest) {
+  weights::Section section;
+  for (const auto& [name, shape] : manifest) {
+    const auto& from = name.ends_with("hidden") ? fitted.hidden
+                       : name.ends_with("bent") ? fitted.bent
+                                                : fitted.straight;
+    section.tensors.push_back({name, shape, {from.begin(), from.end()}});
+  }
+  return section;
+}
+
 }  // namespace flowdlo::lab

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "gate/network.hpp"
+#include "weights/section.hpp"
 
 namespace flowdlo::lab {
 
@@ -49,6 +50,10 @@ struct NetworkTask {
 /// One network that says the mean of what `count` say, each fitted from a seed of its own: their
 /// hidden weights are one below another.
 [[nodiscard]] NetworkWeights fit_mean_of_networks(NetworkTask task, int count);
+
+/// One of one output as a section of a weights file, whose manifest is a bent network's.
+[[nodiscard]] weights::Section section_of(const NetworkWeights& fitted,
+                                          const std::vector<weights::Expected>& manifest);
 
 template <class Network>
 [[nodiscard]] Network network_of(const NetworkWeights& weights) {

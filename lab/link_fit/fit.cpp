@@ -66,17 +66,6 @@ void add_slopes(const Known& known, std::span<const double> said, std::span<doub
   }
 }
 
-weights::LinkWeights weights_of(const NetworkWeights& fitted) {
-  weights::LinkWeights weights;
-  for (auto& [name, shape] : weights::links_manifest()) {
-    const auto& from = name.ends_with("hidden") ? fitted.hidden
-                       : name.ends_with("bent") ? fitted.bent
-                                                : fitted.straight;
-    weights.tensors.push_back({name, shape, {from.begin(), from.end()}});
-  }
-  return weights;
-}
-
 }  // namespace
 
 weights::LinkWeights fit_links(const std::vector<LinkSample>& samples, int rounds) {
@@ -113,7 +102,7 @@ weights::LinkWeights fit_links(const std::vector<LinkSample>& samples, int round
       first += rows;
     }
   };
-  return weights_of(fit_network(task));
+  return section_of(fit_network(task), weights::links_manifest());
 }
 
 LinkQuality quality_of(std::span<const LinkSample> samples, const weights::LinkWeights* weights) {

@@ -24,8 +24,6 @@ inline constexpr int kUnknown = -2;
 
 /// Scenes with more strands than that teach nothing but noise.
 inline constexpr std::size_t kMostStrands = 60;
-/// Every so many-th scene is held out of fits.
-inline constexpr std::uint64_t kHeldOut = 4;
 
 /// Whether one of the ropes has no ends.
 [[nodiscard]] bool has_ring(const synth::SyntheticFrame& scene);

@@ -97,7 +97,8 @@ Gathered gather(const Options& options) {
                return measure(of, index, network);
              })) {
       if (!sample) continue;
-      auto& to = sample->index % kHeldOut == 0 ? gathered.held[sample->kind] : gathered.fitted;
+      auto& to =
+          sample->index % strand::kHeldOut == 0 ? gathered.held[sample->kind] : gathered.fitted;
       to.push_back(*std::move(sample));
     }
   }

@@ -180,7 +180,7 @@ int run(const Options& options) {
           return measure(split, range.part, index, network);
         });
     for (const Outcome& outcome : outcomes) {
-      auto& part = outcome.index % kHeldOut == 0 ? held : fitted;
+      auto& part = outcome.index % strand::kHeldOut == 0 ? held : fitted;
       part.insert(part.end(), outcome.choices.begin(), outcome.choices.end());
     }
   }

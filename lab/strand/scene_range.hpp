@@ -18,6 +18,9 @@
 
 namespace flowdlo::strand {
 
+/// Every so many-th scene is held out of fits.
+inline constexpr std::uint64_t kHeldOut = 4;
+
 struct SceneRange : survey::WideScenes {
   SceneRange() { scenes = 300; }
 

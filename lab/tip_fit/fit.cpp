@@ -25,17 +25,6 @@ double wanted(const TipSample& sample) {
   return std::asinh(within(sample.beyond_widths) / static_cast<double>(refine::kTipUnit));
 }
 
-weights::TipWeights weights_of(const NetworkWeights& fitted) {
-  weights::TipWeights weights;
-  for (auto& [name, shape] : weights::tips_manifest()) {
-    const auto& from = name.ends_with("hidden") ? fitted.hidden
-                       : name.ends_with("bent") ? fitted.bent
-                                                : fitted.straight;
-    weights.tensors.push_back({name, shape, {from.begin(), from.end()}});
-  }
-  return weights;
-}
-
 }  // namespace
 
 weights::TipWeights fit_tips(const std::vector<TipSample>& samples, int rounds) {
@@ -61,7 +50,7 @@ weights::TipWeights fit_tips(const std::vector<TipSample>& samples, int rounds) 
       slope[i] = off / std::hypot(off, kCorner);
     }
   };
-  return weights_of(fit_network(task));
+  return section_of(fit_network(task), weights::tips_manifest());
 }
 
 TipQuality quality_of(std::span<const TipSample> samples, const weights::TipWeights* weights) {

@@ -11,6 +11,7 @@
 #include "estimator/refinement.hpp"
 #include "estimator/second_look.hpp"
 #include "estimator/see_axes.hpp"
+#include "eval/metrics.hpp"
 #include "geometry/camera.hpp"
 #include "geometry/smooth_curve.hpp"
 
@@ -48,19 +49,6 @@ struct Line {
   }
 };
 
-Centerline reversed(Centerline nodes) {
-  std::reverse(nodes.begin(), nodes.end());
-  return nodes;
-}
-
-double index_error_m(const Centerline& nodes, const Centerline& truth) {
-  double sum = 0;
-  for (std::size_t i = 0; i < kNodes; ++i) {
-    sum += (geometry::to_eigen(nodes[i]) - geometry::to_eigen(truth[i])).norm();
-  }
-  return sum / kNodes;
-}
-
 }  // namespace
 
 std::optional<double> beyond_m(const Centerline& nodes, const Centerline& truth, double near_m) {
@@ -88,14 +76,15 @@ std::vector<TipSample> samples_of(const synth::SyntheticFrame& scene, field::Net
        estimator::list_candidates(look, conditions->paths.rope_width_px, {}, {}, {}, frame, 0)) {
     if (candidate.ring != 0 || !(candidate.radius_m > 0)) continue;
     Centerline truth = scene.truth();
-    if (index_error_m(candidate.nodes, reversed(truth)) < index_error_m(candidate.nodes, truth)) {
-      truth = reversed(truth);
+    if (eval::index_error_m(candidate.nodes, eval::reversed(truth)) <
+        eval::index_error_m(candidate.nodes, truth)) {
+      truth = eval::reversed(truth);
     }
-    if (!(index_error_m(candidate.nodes, truth) < kAboutRight_m)) continue;
+    if (!(eval::index_error_m(candidate.nodes, truth) < kAboutRight_m)) continue;
     const auto radius_m = static_cast<double>(candidate.radius_m);
     const refine::Curve curve = estimator::curve_of(candidate);
     for (const bool last : {false, true}) {
-      const auto beyond = last ? beyond_m(reversed(candidate.nodes), reversed(truth),
+      const auto beyond = last ? beyond_m(eval::reversed(candidate.nodes), eval::reversed(truth),
                                           kNearRadii * radius_m + kNear_m)
                                : beyond_m(candidate.nodes, truth, kNearRadii * radius_m + kNear_m);
       if (!beyond) continue;

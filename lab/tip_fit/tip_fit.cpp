@@ -24,8 +24,6 @@
 namespace flowdlo::lab {
 namespace {
 
-constexpr std::uint64_t kHeldOutEvery = 4;
-
 struct Options {
   strand::SceneRange range;
   std::uint64_t thesis = 0;
@@ -69,7 +67,7 @@ Gathered gather(const Options& options) {
            return measure(of, index, network);
          })) {
       for (TipSample& sample : samples) {
-        const bool held = sample.index % kHeldOutEvery == 0;
+        const bool held = sample.index % strand::kHeldOut == 0;
         (held ? gathered.held[sample.kind] : gathered.fitted).push_back(std::move(sample));
       }
     }

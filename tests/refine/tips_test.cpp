@@ -38,8 +38,7 @@ Network moves_ends(const weights::TipWeights& tips) {
   auto weights = weights::seeded_refine(1);
   for (auto& tensor : weights.tensors) std::fill(tensor.values.begin(), tensor.values.end(), 0.0F);
   auto network = Network::create(
-      weights, [] { return reference::create_program(1); },
-      std::make_shared<const weights::TipWeights>(tips));
+      weights, [] { return reference::create_program(1); }, tips);
   if (!network) throw std::runtime_error(network.error().message);
   return *std::move(network);
 }
