@@ -51,7 +51,7 @@ image::Image<float> distance_to(const Path& path, const Frame& frame) {
   for (const Vector2f& p : path.points_px) {
     points.push_back({geometry::nearest_px(p.x()), geometry::nearest_px(p.y())});
   }
-  image::draw_polyline(away, points, 0, image::Steps::kAslant);
+  image::draw_polyline(away, points, 0);
   return image::distance_to_empty(away);
 }
 

@@ -22,7 +22,7 @@ inline constexpr float kRidge = 0.4F;
 [[nodiscard]] std::vector<RidgePoint> ridges(const Channels& field, float least = kRidge);
 
 /// Least kTip of an end.
-inline constexpr float kTipPeak = 0.65F;
+inline constexpr float kTipPeak = 0.7F;
 
 /// Where tips are likeliest; pixels of the region.
 [[nodiscard]] std::vector<Eigen::Vector2f> tips(const Channels& field, float least = kTipPeak);

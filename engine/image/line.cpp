@@ -52,9 +52,7 @@ bool clip(const Size& size, Place& a, Place& b) {
   return true;
 }
 
-}  // namespace
-
-void draw_line(Mask& mask, Point from, Point to, std::uint8_t value, Steps steps) {
+void draw_line(Mask& mask, Point from, Point to, std::uint8_t value) {
   Place a{from.x, from.y};
   Place b{to.x, to.y};
   if (!clip(mask.size(), a, b)) return;
@@ -64,25 +62,21 @@ void draw_line(Mask& mask, Point from, Point to, std::uint8_t value, Steps steps
   const int down = b.y < a.y ? -1 : 1;
   const bool steep = across > along;
   if (steep) std::swap(along, across);
-  const auto move = [&](bool forward, bool sideways) {
-    if (steep ? sideways : forward) ++a.x;
-    if (steep ? forward : sideways) a.y += down;
-  };
-  const bool aslant = steps == Steps::kAslant;
-  std::int64_t error = aslant ? along - 2 * across : 0;
-  const auto count = aslant ? along + 1 : along + across + 1;
-  for (std::int64_t i = 0; i < count; ++i) {
+  std::int64_t error = along - 2 * across;
+  for (std::int64_t i = 0; i <= along; ++i) {
     mask.at(static_cast<int>(a.y), static_cast<int>(a.x)) = value;
     const bool sideways = error < 0;
-    move(aslant || !sideways, sideways);
-    error -= 2 * across;
-    if (sideways) error += aslant ? 2 * along : 2 * along + 2 * across;
+    if (!steep || sideways) ++a.x;
+    if (steep || sideways) a.y += down;
+    error += sideways ? 2 * (along - across) : -2 * across;
   }
 }
 
-void draw_polyline(Mask& mask, std::span<const Point> points, std::uint8_t value, Steps steps) {
+}  // namespace
+
+void draw_polyline(Mask& mask, std::span<const Point> points, std::uint8_t value) {
   for (std::size_t i = 1; i < points.size(); ++i) {
-    draw_line(mask, points[i - 1], points[i], value, steps);
+    draw_line(mask, points[i - 1], points[i], value);
   }
 }
 

@@ -28,27 +28,6 @@ int count_set(const ConstMask& mask) {
   return count;
 }
 
-Rect box_of(const ConstMask& mask) {
-  int left = mask.width();
-  int right = -1;
-  int top = -1;
-  int bottom = -1;
-  for (int v = 0; v < mask.height(); ++v) {
-    const std::uint8_t* const row = mask.row(v);
-    const auto set = [](std::uint8_t value) { return value != 0; };
-    const auto first = static_cast<int>(std::find_if(row, row + mask.width(), set) - row);
-    if (first == mask.width()) continue;
-    if (top < 0) top = v;
-    bottom = v;
-    left = std::min(left, first);
-    int last = mask.width() - 1;
-    while (last > right && row[last] == 0) --last;
-    right = std::max(right, last);
-  }
-  if (top < 0) return {};
-  return {left, top, right - left + 1, bottom - top + 1};
-}
-
 Mask above(const ConstMask& image, std::uint8_t threshold, std::uint8_t value) {
   return mask_above(image, threshold, value);
 }
@@ -73,25 +52,6 @@ bool same(const ConstMask& a, const ConstMask& b) {
     if (!row) return false;
   }
   return true;
-}
-
-void erase(Mask& mask, const ConstMask& there) {
-  for (int v = 0; v < mask.height(); ++v) {
-    std::uint8_t* const row = mask.row(v);
-    const std::uint8_t* const gone = there.row(v);
-    for (int u = 0; u < mask.width(); ++u) row[u] = gone[u] != 0 ? std::uint8_t{0} : row[u];
-  }
-}
-
-Mask either(const ConstMask& a, const ConstMask& b) {
-  Mask result(a.size());
-  for (int v = 0; v < a.height(); ++v) {
-    const std::uint8_t* const one = a.row(v);
-    const std::uint8_t* const other = b.row(v);
-    std::uint8_t* const to = result.row(v);
-    for (int u = 0; u < a.width(); ++u) to[u] = (one[u] | other[u]) != 0 ? 1 : 0;
-  }
-  return result;
 }
 
 Mask majority(const ConstMask& mask, int side) {

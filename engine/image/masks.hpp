@@ -9,9 +9,6 @@ using ConstMask = Image<const std::uint8_t>;
 
 [[nodiscard]] int count_set(const ConstMask& mask);
 
-/// The smallest rectangle that holds what is set; empty where nothing is.
-[[nodiscard]] Rect box_of(const ConstMask& mask);
-
 /// `value` where `image` is above `threshold`, else 0.
 [[nodiscard]] Mask above(const ConstMask& image, std::uint8_t threshold, std::uint8_t value);
 [[nodiscard]] Mask above(const Image<const float>& image, float threshold, std::uint8_t value);
@@ -21,12 +18,6 @@ using ConstMask = Image<const std::uint8_t>;
 
 /// Whether both, of one size, are set in the same places.
 [[nodiscard]] bool same(const ConstMask& a, const ConstMask& b);
-
-/// Empties `mask` where `there` is set.
-void erase(Mask& mask, const ConstMask& there);
-
-/// 1 where either, of one size, is set.
-[[nodiscard]] Mask either(const ConstMask& a, const ConstMask& b);
 
 /// 1 where more than half of the square of `side` (odd) pixels around is set; none lie beyond the
 /// image.

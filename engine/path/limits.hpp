@@ -16,10 +16,6 @@ inline constexpr int kMostTracedPixels = 1 << 23;
 /// Width in pixels from which ropes gain nothing from twice as many of them.
 inline constexpr float kThickPx = 8.0F;
 
-/// Pixels of a region that is magnified to cut thin strands apart; a larger one is cut as it is.
-/// Twice the width and height of 1920 x 1080.
-inline constexpr int kMostMagnifiedPixels = 1 << 23;
-
 /// Length of a mask's strokes, in sums of the image's two sides. Over a hundred `wide` scenes and
 /// all readings of them the most is 2.9.
 inline constexpr int kMostStrokeSides = 8;
@@ -31,10 +27,6 @@ inline constexpr int kMostRopesSides = 12;
 /// Segments of a graph. A rope that crosses itself n times has 2 n + 1; over a hundred `wide`
 /// scenes the most is 57, and 176 in a further reading.
 inline constexpr int kMostSegments = 256;
-
-/// Segments of one rope's graph that is traced once more with its doubles cut apart, which takes
-/// longer than the first time. Over a hundred `wide` scenes the most of a first reading is 57.
-inline constexpr int kMostPartedSegments = 64;
 
 /// Strands of a first reading that is followed by others, each of which takes as long again. A rope
 /// that crosses itself 20 times has 41; over a hundred `wide` scenes the most is 31.

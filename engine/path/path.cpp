@@ -3,14 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <functional>
 #include <memory>
 #include <string>
 #include <utility>
 
 #include "guard/guarded.hpp"
 #include "image/masks.hpp"
-#include "path/doubles.hpp"
 #include "path/graph.hpp"
 #include "path/limits.hpp"
 #include "path/links.hpp"
@@ -26,10 +24,6 @@ namespace {
 
 constexpr float kRaggedSpurs = 0.12F;  // spurs a width of skeleton: the border is frayed
 constexpr int kRaggedLeast = 4;
-constexpr float kThinDoublePx = 6.0F;    // strands thinner than this are cut apart magnified,
-constexpr int kMagnified = 2;            // by this
-constexpr double kLeftOut = 6;           // what it costs to leave one of two strands out
-constexpr double kMostWorseParted = 11;  // nor do cuts help that make all this much worse
 
 float skeleton_length(const Graph& graph) {
   float sum = 0;
@@ -76,81 +70,21 @@ Result<Graph> graph_of(Region& region) {
                            kMostSegments, segments)};
 }
 
-// `Answer` is what `read` makes of strands: Traversals or RopePaths.
-template <class Answer>
-using Read = std::function<Result<Answer>(const Strands&, const Region&, const Frame&)>;
-
-template <class Answer>
-Result<Answer> trace_graph(const Graph& graph, const Region& region, const Frame& frame,
-                           bool several, const Read<Answer>& read) {
-  Strands strands = make_strands(graph, region, frame);
-  strands.several = several;
-  return read(strands, region, frame);
-}
-
-// The answer for a mask whose doubles are cut apart; magnified, where the strands are too thin
-// for a cut a pixel wide.
-template <class Answer>
-Result<Answer> trace_parted(const Region& region, const Doubles& doubles, const Frame& frame,
-                            bool several, const Read<Answer>& read) {
-  const bool large = region.mask.total() * kMagnified * kMagnified > kMostMagnifiedPixels;
-  if (doubles.width_px >= kThinDoublePx || large) {
-    const Region parted = cut(region, doubles.lines);
-    return trace_graph(make_graph(thin(parted.mask), parted), parted, frame, several, read);
-  }
-  const Magnified magnified(frame, region, kMagnified);
-  const Region parted = cut(magnified.region(), magnified.enlarged(doubles.lines));
-  auto result =
-      trace_graph(make_graph(thin(parted.mask), parted), parted, magnified.frame(), several, read);
-  if (result) magnified.restore(*result);
-  return result;
-}
-
-// Both in one, best first. Those of the mask as it is leave out one of two strands where there are
-// two: they pay for it.
-Traversals merged(Traversals parted, const Traversals& whole, const TraceConfig& config) {
-  const double lead = parted.ranked.front().score - whole.ranked.front().score;
-  if (lead < -kMostWorseParted) return whole;
-  for (Path path : whole.ranked) {
-    path.score -= kLeftOut;
-    parted.ranked.push_back(std::move(path));
-  }
-  std::stable_sort(parted.ranked.begin(), parted.ranked.end(),
-                   [](const Path& a, const Path& b) { return a.score > b.score; });
-  const auto wanted = static_cast<std::size_t>(std::max(0, config.alternatives)) + 1;
-  if (parted.ranked.size() > wanted) parted.ranked.resize(wanted);
-  parted.margin = margin_of(parted.ranked);
-  parted.rope_width_px = parted.ranked.front().width_px;
-  return parted;
-}
-
-// The better of both. What is wide all along is two strands where there is one rope; where there
-// are several it may as well be a thicker one.
-RopePaths better(RopePaths parted, RopePaths whole, int ropes) {
-  const double lead = parted.ropes.front().score - whole.ropes.front().score;
-  return lead < (ropes == 1 ? -kLeftOut : kLeftOut) ? std::move(whole) : std::move(parted);
-}
-
-// The answer for a mask, or for a reduced copy of one that is too large to be traced as it is.
-template <class Answer, class Join>
-Result<Answer> trace_mask(const Frame& frame, const Region* cleaned, int ropes,
-                          const Read<Answer>& read, const Join& join) {
-  const auto trace = [&](const Frame& seen, const Reduced* copy) -> Result<Answer> {
-    const bool known = copy == nullptr && cleaned != nullptr;
-    auto region = known ? Result<Region>(*cleaned) : clean(seen, ropes);
-    if (!region) return region.error();
-    const auto graph = graph_of(*region);
-    if (!graph) return graph.error();
-    const int most_parted = ropes == 1 ? kMostPartedSegments : kMostSegments;
-    Doubles doubles;
-    if (alive(*graph) <= most_parted) doubles = find_doubles(*graph, *region, seen);
-    auto whole = trace_graph(*graph, *region, seen, ropes != 1, read);
-    if (doubles.lines.empty() || !whole) return whole;
-    auto parted = trace_parted(*region, doubles, seen, ropes != 1, read);
-    if (!parted) return whole;
-    return join(*std::move(parted), *std::move(whole));
-  };
-  return trace_reduced<Answer>(frame, trace);
+// What `read` makes of the mask's own strands, or of those of a reduced copy of a mask that is too
+// large to be traced as it is.
+template <class Answer, class Read>
+Result<Answer> trace_mask(const Frame& frame, const Region* cleaned, int ropes, const Read& read) {
+  return trace_reduced<Answer>(
+      frame, [&](const Frame& seen, const Reduced* copy) -> Result<Answer> {
+        const bool known = copy == nullptr && cleaned != nullptr;
+        auto region = known ? Result<Region>(*cleaned) : clean(seen, ropes);
+        if (!region) return region.error();
+        const auto graph = graph_of(*region);
+        if (!graph) return graph.error();
+        Strands strands = make_strands(*graph, *region, seen);
+        strands.several = ropes != 1;
+        return read(strands, *region, seen);
+      });
 }
 
 // Length of what the region shows, in widths.
@@ -179,27 +113,22 @@ Result<Glance> glance(const Frame& frame) {
 }
 
 Result<Traversals> trace(const Frame& frame, const TraceConfig& config) {
-  const Read<Traversals> read = [&](const Strands& strands, const Region& region,
-                                    const Frame& seen) {
-    return rank(strands, region, seen, config);
-  };
   return guard::guarded("path", [&] {
-    return trace_mask(frame, config.cleaned.get(), 1, read,
-                      [&](Traversals parted, const Traversals& whole) {
-                        return merged(std::move(parted), whole, config);
-                      });
+    return trace_mask<Traversals>(
+        frame, config.cleaned.get(), 1,
+        [&](const Strands& strands, const Region& region, const Frame& seen) {
+          return rank(strands, region, seen, config);
+        });
   });
 }
 
 Result<RopePaths> trace_ropes(const Frame& frame, int ropes) {
-  const Read<RopePaths> read = [&](const Strands& strands, const Region& region,
-                                   const Frame& seen) {
-    return rope_paths(strands, prices_of(strands, region, seen), region, seen, ropes);
-  };
   return guard::guarded("path", [&] {
-    return trace_mask(frame, nullptr, ropes, read, [&](RopePaths parted, RopePaths whole) {
-      return better(std::move(parted), std::move(whole), ropes);
-    });
+    return trace_mask<RopePaths>(
+        frame, nullptr, ropes,
+        [&](const Strands& strands, const Region& region, const Frame& seen) {
+          return rope_paths(strands, prices_of(strands, region, seen), region, seen, ropes);
+        });
   });
 }
 

@@ -76,8 +76,10 @@ struct Glance {
 /// Expects a valid frame. Fails as `trace` does, of a mask without a stroke.
 [[nodiscard]] Result<Glance> glance(const Frame& frame);
 
-/// Mask (and depth, where there is any) to ordered paths. Expects a valid frame. Fails with
-/// kNoPath, saying why, when the mask holds no stroke a rope could have drawn.
+/// The plain reading, without a strand field: mask (and depth, where there is any) to ordered
+/// paths, along the middle of its strokes. Strands that the mask merges are one to it. Expects a
+/// valid frame. Fails with kNoPath, saying why, when the mask holds no stroke a rope could have
+/// drawn.
 [[nodiscard]] Result<Traversals> trace(const Frame& frame, const TraceConfig& config = {});
 
 /// The cheapest set of ropes that explains the mask: so many, or, with 0, as many as cost least.

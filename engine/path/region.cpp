@@ -10,10 +10,7 @@
 #include "geometry/pixel.hpp"
 #include "image/components.hpp"
 #include "image/distance.hpp"
-#include "image/line.hpp"
 #include "image/masks.hpp"
-#include "image/resize.hpp"
-#include "path/fringe.hpp"
 #include "path/strokes.hpp"
 
 namespace flowdlo::path {
@@ -153,33 +150,6 @@ bool lit(const image::Mask& mask, const Eigen::Vector2f& p) {
   return lit(mask, geometry::nearest_px(p.x()), geometry::nearest_px(p.y()));
 }
 
-Region cut(const Region& region, const std::vector<std::vector<Eigen::Vector2f>>& lines) {
-  Region result = region;
-  const auto pixel = [](const Eigen::Vector2f& p) {
-    return image::Point{geometry::nearest_px(p.x()), geometry::nearest_px(p.y())};
-  };
-  image::Mask drawn(region.mask.size(), 0);
-  for (const auto& line : lines) {  // without diagonal steps, which join what they pass
-    for (std::size_t i = 1; i < line.size(); ++i) {
-      image::draw_line(drawn, pixel(line[i - 1]), pixel(line[i]), 1, image::Steps::kSide);
-    }
-  }
-  result.mask = region.mask.clone();
-  image::erase(result.mask, drawn);
-  if (erase_specks(result.mask, 0) == 0) return region;
-  result.distance_px = image::distance_to_empty(result.mask);
-  result.width_px = ridge_width(result.distance_px);
-  return result;
-}
-
-Region magnified(const Region& region, int times) {
-  Region result = region;
-  result.mask = image::nearest<std::uint8_t>(region.mask, region.mask.size() * times);
-  result.distance_px = image::distance_to_empty(result.mask);
-  result.width_px = ridge_width(result.distance_px);
-  return result;
-}
-
 Region smoothed(const Region& region, int size_px) {
   Region result = region;
   result.mask = image::majority(region.mask, size_px);
@@ -204,7 +174,6 @@ Result<Region> clean(const Frame& frame, int ropes) {
   if (!strokes) return strokes.error();
   region.mask = std::move(strokes->mask);
   region.filtered = strokes->filtered;
-  erase_fringes(region.mask);
   if (erase_specks(region.mask, 0) == 0) {
     return Error{ErrorCode::kNoPath, "path: expected a stroke, got only specks of fewer than " +
                                          std::to_string(kSpeckAreaPx) +

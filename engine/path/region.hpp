@@ -3,7 +3,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <vector>
 
 #include "flowdlo/frame.hpp"
 #include "flowdlo/result.hpp"
@@ -38,13 +37,6 @@ struct Region {
 /// Crops and cleans the mask. Fails with kNoPath when it is empty, holds specks only, or more
 /// strokes than one rope, or several, can have made (`strokes_of`).
 [[nodiscard]] Result<Region> clean(const Frame& frame, int ropes = 1);
-
-/// `region` cut along `lines`; unchanged when nothing would be left of it.
-[[nodiscard]] Region cut(const Region& region,
-                         const std::vector<std::vector<Eigen::Vector2f>>& lines);
-
-/// `region` with each pixel `times` squared; `offset_px` stays.
-[[nodiscard]] Region magnified(const Region& region, int times);
 
 /// `region` after a majority filter over squares of `size_px` (odd), for frayed borders and noise;
 /// unchanged when nothing would be left of it.

@@ -18,9 +18,7 @@ namespace {
 using Eigen::Vector2f;
 
 const Vector2f kHalf{0.5F, 0.5F};
-// What lies beside the mask tells of occluders.
-constexpr int kAroundMagnifiedPx = 24;
-constexpr int kAroundReducedPx = 48;
+constexpr int kAroundPx = 48;  // what lies beside the mask tells of occluders
 
 // Samples about a pixel apart of those that lie `pace` pixels apart; where a link begins or ends
 // between two of them, the new one belongs to it.
@@ -58,7 +56,7 @@ image::Image<Pixel> copied(std::span<const Pixel> pixels, const Frame& frame,
 
 // What is reduced of a frame: whole pixels of the copy; the last few of the original may go.
 image::Rect whole_pixels(const image::Rect& box, int times, const image::Size& frame) {
-  image::Rect part = widened(box, kAroundReducedPx, frame);
+  image::Rect part = image::grown(box, kAroundPx) & image::all_of(frame);
   part.width = std::max(1, part.width / times) * times;
   part.height = std::max(1, part.height / times) * times;
   return part & image::all_of(frame);
@@ -69,11 +67,6 @@ int times_to_fit(const image::Rect& box, int pixels) {
   int times = 1;
   while (std::int64_t{box.width / times} * (box.height / times) > pixels) ++times;
   return times;
-}
-
-template <class T>
-image::Image<T> times_larger(const image::Image<T>& given, int times) {
-  return image::nearest<T>(given, given.size() * times);
 }
 
 }  // namespace
@@ -113,69 +106,12 @@ void Window::restore(RopePaths& paths, const image::Size& frame) const {
   }
 }
 
-image::Mask mask_in(const Frame& frame, const image::Rect& part) {
-  return copied(frame.mask, frame, part);
-}
-
-image::Image<float> depth_in(const Frame& frame, const image::Rect& part) {
-  return copied(frame.depth_m, frame, part);
-}
-
-image::Image<std::uint16_t> instances_in(const Frame& frame, const image::Rect& part) {
-  if (frame.instances.empty()) return {};
-  return copied(frame.instances, frame, part);
-}
-
-Frame frame_of(const image::Mask& mask, const image::Image<float>& depth_m,
-               const image::Image<std::uint16_t>& instances, const Intrinsics& camera) {
-  Frame frame{mask.width(),
-              mask.height(),
-              camera,
-              {depth_m.data(), depth_m.total()},
-              {mask.data(), mask.total()},
-              {}};
-  if (!instances.empty()) frame.instances = {instances.data(), instances.total()};
-  return frame;
-}
-
-image::Rect widened(const image::Rect& box, int around_px, const image::Size& frame) {
-  return image::grown(box, around_px) & image::all_of(frame);
-}
-
-Rescaled::Rescaled(const Frame& original, const Window& window)
-    : window_(window),
-      original_{original.width, original.height},
-      camera_(window.camera(original.intrinsics)) {}
-
-Frame Rescaled::frame() const { return frame_of(mask_, depth_m_, instances_, camera_); }
-
-Magnified::Magnified(const Frame& frame, const Region& region, int times)
-    : Rescaled(frame, {widened({region.offset_px.x, region.offset_px.y, region.mask.width(),
-                                region.mask.height()},
-                               kAroundMagnifiedPx, {frame.width, frame.height}),
-                       static_cast<float>(times)}) {
-  region_ = magnified(region, times);
-  region_.offset_px = times * (region.offset_px - window_.part.corner());
-  depth_m_ = times_larger(depth_in(frame, window_.part), times);
-  mask_ = times_larger(mask_in(frame, window_.part), times);
-  if (frame.instances.empty()) return;
-  instances_ = times_larger(instances_in(frame, window_.part), times);
-}
-
-std::vector<std::vector<Vector2f>> Magnified::enlarged(
-    std::vector<std::vector<Vector2f>> lines) const {
-  for (auto& line : lines) {
-    for (Vector2f& p : line) p = window_.scale * (p + kHalf) - kHalf;
-  }
-  return lines;
-}
-
 int reduction_of(const Frame& frame, const image::Rect& box) {
   const int least = times_to_fit(box, kMostTracedPixels);
   const int most = times_to_fit(box, kAlwaysTracedPixels);
   if (least == most) return least;
   image::Mask mask(image::grown(box, 1).size(), 0);
-  const image::Mask within = mask_in(frame, box);
+  const image::Mask within = copied(frame.mask, frame, box);
   for (int v = 0; v < box.height; ++v) {
     std::transform(
         within.row(v), within.row(v) + box.width, mask.row(v + 1) + 1,
@@ -190,15 +126,27 @@ int reduction_of(const Frame& frame, const image::Rect& box) {
 }
 
 Reduced::Reduced(const Frame& frame, const image::Rect& box, int times)
-    : Rescaled(frame, {whole_pixels(box, times, {frame.width, frame.height}),
-                       1 / static_cast<float>(times)}) {
+    : window_{whole_pixels(box, times, {frame.width, frame.height}), 1 / static_cast<float>(times)},
+      original_{frame.width, frame.height},
+      camera_(window_.camera(frame.intrinsics)) {
   const image::Rect& part = window_.part;
   const image::Size size{std::max(1, part.width / times), std::max(1, part.height / times)};
-  const image::Mask full = image::above(mask_in(frame, part), 127, 255);
+  const image::Mask full = image::above(copied(frame.mask, frame, part), 127, 255);
   mask_ = image::above(image::area_mean<std::uint8_t>(full, size), 127, 255);
-  depth_m_ = image::nearest<float>(depth_in(frame, part), size);
+  depth_m_ = image::nearest<float>(copied(frame.depth_m, frame, part), size);
   if (frame.instances.empty()) return;
-  instances_ = image::nearest<std::uint16_t>(instances_in(frame, part), size);
+  instances_ = image::nearest<std::uint16_t>(copied(frame.instances, frame, part), size);
+}
+
+Frame Reduced::frame() const {
+  Frame frame{mask_.width(),
+              mask_.height(),
+              camera_,
+              {depth_m_.data(), depth_m_.total()},
+              {mask_.data(), mask_.total()},
+              {}};
+  if (!instances_.empty()) frame.instances = {instances_.data(), instances_.total()};
+  return frame;
 }
 
 }  // namespace flowdlo::path

@@ -29,23 +29,18 @@ struct Window {
   void restore(Path& path, const image::Size& frame) const;
 };
 
-/// Copies of a part of a frame.
-[[nodiscard]] image::Mask mask_in(const Frame& frame, const image::Rect& part);
-[[nodiscard]] image::Image<float> depth_in(const Frame& frame, const image::Rect& part);
-/// Empty where the frame has none.
-[[nodiscard]] image::Image<std::uint16_t> instances_in(const Frame& frame, const image::Rect& part);
+/// By how much a mask in that box is reduced to be traced; 1: not at all. A large box is traced in
+/// full only where its strokes are thin and no longer than a rope.
+[[nodiscard]] int reduction_of(const Frame& frame, const image::Rect& box);
 
-/// Views of the images, of one size and without padding; `instances` may be empty.
-[[nodiscard]] Frame frame_of(const image::Mask& mask, const image::Image<float>& depth_m,
-                             const image::Image<std::uint16_t>& instances,
-                             const Intrinsics& camera);
-
-/// The rectangle of that frame around `box`, `around_px` wider on every side.
-[[nodiscard]] image::Rect widened(const image::Rect& box, int around_px, const image::Size& frame);
-
-/// A copy of a part of a frame at another scale.
-class Rescaled {
+/// A copy of a part of a frame at a whole fraction of its size, for masks too large to be traced as
+/// they are.
+class Reduced {
  public:
+  /// Copies the box and what lies around it; `times` squared pixels become one, which is mask where
+  /// half of them are.
+  Reduced(const Frame& frame, const image::Rect& box, int times);
+
   /// Views into this object.
   [[nodiscard]] Frame frame() const;
 
@@ -59,44 +54,13 @@ class Rescaled {
   void restore(Traversals& traversals) const { window_.restore(traversals, original_); }
   void restore(RopePaths& paths) const { window_.restore(paths, original_); }
 
- protected:
-  Rescaled(const Frame& original, const Window& window);
-
+ private:
   Window window_;
   image::Size original_;
   Intrinsics camera_;
   image::Image<float> depth_m_;
   image::Mask mask_;
   image::Image<std::uint16_t> instances_;
-};
-
-/// At a whole multiple of its size, for ropes a few pixels wide.
-class Magnified : public Rescaled {
- public:
-  /// Copies what `region` and its surroundings hold of `frame`; a pixel becomes `times` squared.
-  Magnified(const Frame& frame, const Region& region, int times);
-
-  /// The region in it.
-  [[nodiscard]] const Region& region() const { return region_; }
-
-  /// Lines of the original region in it.
-  [[nodiscard]] std::vector<std::vector<Eigen::Vector2f>> enlarged(
-      std::vector<std::vector<Eigen::Vector2f>> lines) const;
-
- private:
-  Region region_;
-};
-
-/// By how much a mask in that box is reduced to be traced; 1: not at all. A large box is traced in
-/// full only where its strokes are thin and no longer than a rope.
-[[nodiscard]] int reduction_of(const Frame& frame, const image::Rect& box);
-
-/// At a whole fraction of its size, for masks too large to be traced as they are.
-class Reduced : public Rescaled {
- public:
-  /// Copies the box and what lies around it; `times` squared pixels become one, which is mask where
-  /// half of them are.
-  Reduced(const Frame& frame, const image::Rect& box, int times);
 };
 
 /// `trace(frame, null)`; of a mask that is too large to be traced as it is `trace(copy's frame,

@@ -21,14 +21,8 @@ struct Kind<std::array<T, kChannels>> {
 
 inline image::Size size_of(const cv::Size& size) { return {size.width, size.height}; }
 inline image::Point point_of(const cv::Point& p) { return {p.x, p.y}; }
-inline image::Rect rect_of(const cv::Rect& rect) {
-  return {rect.x, rect.y, rect.width, rect.height};
-}
 inline cv::Size size_of(const image::Size& size) { return {size.width, size.height}; }
 inline cv::Point point_of(const image::Point& p) { return {p.x, p.y}; }
-inline cv::Rect rect_of(const image::Rect& rect) {
-  return {rect.x, rect.y, rect.width, rect.height};
-}
 
 /// The same pixels, which it keeps. `mat` has that type.
 template <class T>

@@ -9,10 +9,10 @@ namespace {
 using ::testing::Each;
 using ::testing::ElementsAre;
 
-/// A mask of a spot of 12 x 12 px around the corner of four pixels, which covers so much of each.
-image::Image<float> spot(int width, int height, int u, int v, float share = 1) {
+/// A mask of a square spot around the corner of four pixels, which covers so much of each.
+image::Image<float> spot(int width, int height, int u, int v, int side = 20, float share = 1) {
   image::Image<float> mask({width, height}, 0.0F);
-  mask.part({u - 6, v - 6, 12, 12}).fill(share);
+  mask.part({u - side / 2, v - side / 2, side, side}).fill(share);
   return mask;
 }
 
@@ -20,17 +20,18 @@ TEST(BlockMap, EmptyMaskNeedsNoBlock) {
   EXPECT_TRUE(blocks_near(image::Image<float>({200, 100}, 0.0F)).blocks.empty());
 }
 
-TEST(BlockMap, BlocksWithinAWidthAndAHalfOfTheMaskAreComputed) {
+TEST(BlockMap, BlocksWithinAWidthOfTheMaskAreComputed) {
   const BlockMap map = blocks_near(spot(320, 96, 48, 48));  // the middle of a block
   EXPECT_EQ(map.columns, 10);
   EXPECT_EQ(map.rows, 3);
   EXPECT_THAT(map.blocks, ElementsAre(image::Point{0, 0}, image::Point{1, 0}, image::Point{2, 0},
                                       image::Point{0, 1}, image::Point{1, 1}, image::Point{2, 1},
                                       image::Point{0, 2}, image::Point{1, 2}, image::Point{2, 2}));
+  EXPECT_THAT(blocks_near(spot(320, 96, 48, 48, 14)).blocks, ElementsAre(image::Point{1, 1}));
 }
 
 TEST(BlockMap, HalfAPixelIsNoMask) {
-  EXPECT_TRUE(blocks_near(spot(320, 96, 48, 48, 0.5F)).blocks.empty());
+  EXPECT_TRUE(blocks_near(spot(320, 96, 48, 48, 20, 0.5F)).blocks.empty());
 }
 
 TEST(BlockMap, KnowsWhatLiesAround) {

@@ -8,12 +8,7 @@
 namespace flowdlo::image {
 namespace {
 
-class Lines : public testing::TestWithParam<Steps> {
- protected:
-  [[nodiscard]] static int type() { return GetParam() == Steps::kSide ? cv::LINE_4 : cv::LINE_8; }
-};
-
-TEST_P(Lines, HaveThePixelsOfOpenCvWithinTheImageAndBeyond) {
+TEST(Polyline, HasThePixelsOfOpenCvsLinesWithinTheImageAndBeyond) {
   cv::RNG random(5);
   for (int i = 0; i < 4000; ++i) {
     const int width = random.uniform(1, 120);
@@ -26,14 +21,12 @@ TEST_P(Lines, HaveThePixelsOfOpenCvWithinTheImageAndBeyond) {
     const cv::Point from = place();
     const cv::Point to = place();
     cv::Mat expected = cv::Mat::zeros(height, width, CV_8U);
-    cv::line(expected, from, to, cv::Scalar(7), 1, type());
+    cv::line(expected, from, to, cv::Scalar(7), 1, cv::LINE_8);
     Mask own({width, height}, 0);
-    draw_line(own, mat::point_of(from), mat::point_of(to), 7, GetParam());
+    draw_polyline(own, std::vector<Point>{mat::point_of(from), mat::point_of(to)}, 7);
     ASSERT_TRUE(same_bits(mat::mat_over(own), expected)) << from << " to " << to;
   }
 }
-
-INSTANTIATE_TEST_SUITE_P(Both, Lines, testing::Values(Steps::kSide, Steps::kAslant));
 
 TEST(Polyline, GoesThroughAllItsPoints) {
   const std::vector<cv::Point> points{{3, 4}, {60, 20}, {61, 20}, {10, 50}, {10, 4}};
@@ -42,7 +35,7 @@ TEST(Polyline, GoesThroughAllItsPoints) {
   cv::Mat expected(64, 80, CV_8U, cv::Scalar(255));
   cv::polylines(expected, points, false, cv::Scalar(0));
   Mask own({80, 64}, 255);
-  draw_polyline(own, own_points, 0, Steps::kAslant);
+  draw_polyline(own, own_points, 0);
   EXPECT_TRUE(same_bits(mat::mat_over(own), expected));
 }
 

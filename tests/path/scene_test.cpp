@@ -1,5 +1,5 @@
 // Paths on scenes with truth: which share of each kind has to be right is flowdlo-lab scenes
-// report's. Turns of a coil that touch are for the strand field to tell apart (FieldChoice).
+// report's. Strands that touch are for the strand field to tell apart (FieldChoice).
 #include "scene/scene.hpp"
 
 #include <gtest/gtest.h>
@@ -42,8 +42,7 @@ TEST_P(SceneOf, IsFollowedFromEndToEnd) {
 INSTANTIATE_TEST_SUITE_P(Kinds, SceneOf,
                          testing::Values(lab::Kind::kSimple, lab::Kind::kHanging,
                                          lab::Kind::kOneCrossing, lab::Kind::kThin,
-                                         lab::Kind::kRagged, lab::Kind::kBadDepth,
-                                         lab::Kind::kTouching),
+                                         lab::Kind::kRagged, lab::Kind::kBadDepth),
                          [](const auto& which) {
                            std::string name(lab::name_of(which.param));
                            std::replace(name.begin(), name.end(), '-', '_');

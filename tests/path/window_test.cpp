@@ -82,10 +82,6 @@ TEST(Window, NothingLeavesTheFrame) {
   EXPECT_EQ(traced.ranked[0].points_px.back(), Vector2f(63, 47));
 }
 
-TEST(Window, IsWidenedAsFarAsTheFrameReaches) {
-  EXPECT_EQ(path::widened({5, 10, 20, 20}, 8, {30, 100}), (image::Rect{0, 2, 30, 36}));
-}
-
 /// How a stroke so wide, or noise, from corner to corner of an image would be reduced.
 int reduction_for(const cv::Size& size, int width_px, int noise_percent = 0) {
   Canvas canvas(size.width, size.height);
