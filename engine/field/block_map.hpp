@@ -14,8 +14,8 @@ inline constexpr int kFold = 2;        ///< pixels of the region a place, in u a
 inline constexpr int kBlockSide = 16;  ///< places a side of a block, see ops::Convolution
 inline constexpr int kBlock_px = kFold * kBlockSide;
 
-/// Blocks that hold a pixel within this of the mask are computed: a width. With half as much again
-/// as many of the field's lines and ends are right (docs/field.md), for a fifth more blocks.
+/// Blocks that hold a pixel within this of the mask are computed: a rope's width. 12 px take a
+/// sixth more blocks on long ropes, and the field's lines and ends are no better (docs/field.md).
 inline constexpr int kNear_px = 8;
 
 /// Which blocks: row by row.

@@ -32,12 +32,9 @@ struct Graph {
   float width_px = 1;             ///< of one strand, usual over the skeleton
   int pruned = 0;                 ///< how many spurs went
 
-  /// Whether a segment's side is a free end, or a node where more than two ends meet.
+  /// Whether a segment's side is a free end.
   [[nodiscard]] bool at_tip(const Segment& segment, int side) const {
     return !segment.ring() && nodes[segment.node[side]].ends.size() == 1;
-  }
-  [[nodiscard]] bool forks(const Segment& segment, int side) const {
-    return !segment.ring() && nodes[segment.node[side]].ends.size() > 2;
   }
 };
 

@@ -89,13 +89,14 @@ std::vector<Path> ranked_paths(const Strands& strands, const Region& region, con
   return paths;
 }
 
-}  // namespace
-
+// Traversals::margin of paths, best first.
 float margin_of(const std::vector<Path>& ranked) {
   if (ranked.size() < 2) return 1;
   const double lead = ranked[0].score - ranked[1].score;
   return static_cast<float>(1 - std::exp(-std::max(0.0, lead) / kMarginCost));
 }
+
+}  // namespace
 
 Result<Traversals> rank(const Strands& strands, const Region& region, const Frame& frame,
                         const TraceConfig& asked) {

@@ -1,8 +1,6 @@
 // Ranked: the ways through a set of strands as paths, best first.
 #pragma once
 
-#include <vector>
-
 #include "flowdlo/frame.hpp"
 #include "flowdlo/result.hpp"
 #include "path/path.hpp"
@@ -16,8 +14,5 @@ namespace flowdlo::path {
 /// that is a spot.
 [[nodiscard]] Result<Traversals> rank(const Strands& strands, const Region& region,
                                       const Frame& frame, const TraceConfig& config);
-
-/// [0, 1] Traversals::margin of paths, best first.
-[[nodiscard]] float margin_of(const std::vector<Path>& ranked);
 
 }  // namespace flowdlo::path
