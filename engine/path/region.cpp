@@ -11,6 +11,7 @@
 #include "image/components.hpp"
 #include "image/distance.hpp"
 #include "image/masks.hpp"
+#include "path/fringe.hpp"
 #include "path/strokes.hpp"
 
 namespace flowdlo::path {
@@ -174,6 +175,7 @@ Result<Region> clean(const Frame& frame, int ropes) {
   if (!strokes) return strokes.error();
   region.mask = std::move(strokes->mask);
   region.filtered = strokes->filtered;
+  erase_fringes(region.mask);
   if (erase_specks(region.mask, 0) == 0) {
     return Error{ErrorCode::kNoPath, "path: expected a stroke, got only specks of fewer than " +
                                          std::to_string(kSpeckAreaPx) +

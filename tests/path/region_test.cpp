@@ -46,6 +46,25 @@ TEST(Region, KeepsTheNarrowHoleOfALoop) {
   EXPECT_EQ(at(*region, 300, 208), 0) << "two strands beside each other, not a highlight";
 }
 
+// A strand 13 px thick along v = 200; slivers 3 px thick beside it, a dark pixel between them.
+Canvas fringed() {
+  Canvas canvas;
+  canvas.mask(cv::Rect{100, 194, 400, 13}) = 255;
+  for (int u = 120; u < 480; u += 24) {
+    canvas.mask(cv::Rect{u, 208, 14, 3}) = 255;
+    canvas.mask(cv::Rect{u + 9, 190, 14, 3}) = 255;
+  }
+  return canvas;
+}
+
+TEST(Region, ErasesAFringeBehindADarkLine) {
+  const auto region = path::clean(fringed().frame());
+  ASSERT_TRUE(region);
+  EXPECT_EQ(at(*region, 125, 209), 0);
+  EXPECT_EQ(at(*region, 250, 200), 1);
+  EXPECT_NEAR(region->width_px, 13, 2);
+}
+
 TEST(Region, KeepsEquallyThickStrandsAPixelApart) {
   const Canvas canvas =
       Canvas().stroke({{100, 200}, {500, 200}}, 7).stroke({{100, 208}, {300, 208}}, 7);
