@@ -110,7 +110,9 @@ Result<RopeReadings> read_ropes(const Frame& frame, int ropes, const SeeAxes& se
   RopeReadings first = witnessed(*std::move(seen), *masked);
   first.seen = axes->view;
   if (all_sure(first)) return first;
-  const auto closer = see(kCloser * first.paths.rope_width_px);
+  const float closer_px = kCloser * first.paths.rope_width_px;
+  if (!field::looks_closer(frame, closer_px, axes->magnified_for_px)) return first;
+  const auto closer = see(closer_px);
   if (!closer) return first;
   const auto other = path::trace_ropes(frame, *closer, ropes, masked->guesses);
   if (!other) return first;

@@ -179,7 +179,7 @@ Rereading::Rereading(threads::Pool& pool, bool doubtful, field::Network* field,
 std::vector<Rereading::Read> Rereading::planned(bool doubtful) const {
   std::vector<Read> reads;
   if (!doubtful) return reads;
-  if (field_ != nullptr && worth_rereading(conditions_, frame_)) {
+  if (field_ != nullptr && looks_closer() && worth_rereading(conditions_, frame_)) {
     reads.push_back({Kind::kCloserField});
   }
   const bool sees_less = frame_.color_bgr.empty() || reads.empty();
@@ -187,6 +187,11 @@ std::vector<Rereading::Read> Rereading::planned(bool doubtful) const {
   if (limits_.budget == nullptr) return reads;
   for (Read& read : reads) read.expected_ms = cost_of(read.kind).of(amount_of(read.kind));
   return reads;
+}
+
+bool Rereading::looks_closer() const {
+  return !conditions_.axes || field::looks_closer(frame_, kCloser * conditions_.paths.rope_width_px,
+                                                  conditions_.axes->magnified_for_px);
 }
 
 Cost& Rereading::cost_of(Kind kind) const {

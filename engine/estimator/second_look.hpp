@@ -62,9 +62,9 @@ class Rereading {
  public:
   /// None of a frame that is not `doubtful`. Otherwise, where there is a field and it may be surer
   /// (`worth_rereading`), the one along the axes that its network sees when the rope is magnified
-  /// by 1 / kCloser more. Of a frame without a picture, in which a field sees less, and where the
-  /// field does not look closer, also the one of the mask alone, unless that was the first one
-  /// (docs/accuracy.md).
+  /// by 1 / kCloser more, unless it cannot be. Of a frame without a picture, in which a field sees
+  /// less, and where the field does not look closer, also the one of the mask alone, unless that
+  /// was the first one (docs/accuracy.md).
   Rereading(threads::Pool& pool, bool doubtful, field::Network* field, const Conditions& conditions,
             const Frame& frame, const ReadConfig& config, const ReadingLimits& limits = {});
 
@@ -98,6 +98,7 @@ class Rereading {
   };
 
   [[nodiscard]] std::vector<Read> planned(bool doubtful) const;
+  [[nodiscard]] bool looks_closer() const;  // than the first reading did
   [[nodiscard]] Cost& cost_of(Kind kind) const;
   [[nodiscard]] double amount_of(Kind kind) const;  // of what the cost is for each
   void read(Read& result);

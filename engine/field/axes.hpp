@@ -14,6 +14,7 @@ namespace flowdlo::field {
 struct Axes {
   std::vector<AxisLine> lines;  ///< the clearest first; points less than a pixel of the field apart
   float width_px = 0;           ///< of the rope
+  float magnified_for_px = 0;   ///< the rope's width for which the field was magnified
   FieldView view{};             ///< what the field shows beside the lines
   std::shared_ptr<const weights::LinkWeights> links{};  ///< what links them; or null
 };

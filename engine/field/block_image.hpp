@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <memory>
 #include <utility>
@@ -60,6 +61,16 @@ class BlockImage {
     return contains({u, v}) ? stored(v, u) : nullptr;
   }
   [[nodiscard]] T* find(int v, int u) { return contains({u, v}) ? stored(v, u) : nullptr; }
+
+  /// The pixels at rows `v` and `v` + 1 and columns `u` and `u` + 1, row by row; as find.
+  [[nodiscard]] std::array<const T*, 4> square(int v, int u) const {
+    const bool one_block = v >= 0 && u >= 0 && v + 1 < size_.height && u + 1 < size_.width &&
+                           v % kBlock_px + 1 < kBlock_px && u % kBlock_px + 1 < kBlock_px;
+    if (!one_block) return {find(v, u), find(v, u + 1), find(v + 1, u), find(v + 1, u + 1)};
+    const T* const first = stored(v, u);
+    if (first == nullptr) return {};
+    return {first, first + 1, first + kBlock_px, first + kBlock_px + 1};
+  }
 
   /// Of a pixel of the image.
   [[nodiscard]] const T& at(int v, int u) const {

@@ -42,6 +42,15 @@ float expected_width_px(const Region& region) {
   return kRope_px / std::sqrt(region.scale.x() * region.scale.y());
 }
 
+bool closer(const Region& region, float before_px) {
+  return expected_width_px(region) <= kCloserBy * before_px;
+}
+
+image::Rect mask_box(const Frame& frame) {
+  const geometry::MaskBox mask = geometry::mask_box(frame);
+  return {mask.left, mask.top, mask.width, mask.height};
+}
+
 Error too_large(const image::Rect& box, float rope_width_px) {
   return {ErrorCode::kNoEvidence,
           fmt::format("field: expected the mask of a rope, at most {} pixels and {} blocks near it "
@@ -57,24 +66,35 @@ struct View {
   std::shared_ptr<const BlockMap> blocks;
 };
 
+/// The region at the rope's width, or magnified less as far as kMostRegionPixels takes; nothing
+/// where strands could not be parted then. `width_px` is what it is magnified for.
+std::optional<Region> fitted(const Frame& frame, const image::Rect& box, float least_px,
+                             float& width_px) {
+  for (int fit = 0; fit < kMostFits && width_px * kLeastWidth <= least_px; ++fit) {
+    const Region region = region_around(box, {frame.width, frame.height}, width_px);
+    const double pixels = static_cast<double>(region.size.width) * region.size.height;
+    if (pixels <= kMostRegionPixels) return region;
+    width_px *= kSpare * static_cast<float>(std::sqrt(pixels / kMostRegionPixels));
+  }
+  return std::nullopt;
+}
+
+/// The width that a rope is magnified for where it can be.
+float least_width_px(float rope_width_px) { return std::max(rope_width_px, kRope_px / kMostScale); }
+
 /// The region at the rope's width, or magnified less as far as it takes and strands can still be
 /// parted. Fails with kNoEvidence where it would still be too large to be looked at.
 Result<View> view_of(const Frame& frame, const image::Rect& box, float rope_width_px,
                      threads::Pool* pool) {
-  const image::Size size{frame.width, frame.height};
-  const float magnified_px = std::max(rope_width_px, kRope_px / kMostScale);
-  float width_px = magnified_px;
-  for (int fit = 0; fit < kMostFits && width_px * kLeastWidth <= magnified_px; ++fit) {
-    Region region = region_around(box, size, width_px);
-    const double pixels = static_cast<double>(region.size.width) * region.size.height;
-    if (pixels > kMostRegionPixels) {
-      width_px *= kSpare * static_cast<float>(std::sqrt(pixels / kMostRegionPixels));
-      continue;
-    }
-    BlockMap blocks = blocks_near(frame, region, pool);
+  const float least_px = least_width_px(rope_width_px);
+  float width_px = least_px;
+  for (int fit = 0; fit < kMostFits; ++fit) {
+    const auto region = fitted(frame, box, least_px, width_px);
+    if (!region) break;
+    BlockMap blocks = blocks_near(frame, *region, pool);
     const auto seen = static_cast<float>(blocks.blocks.size());
     if (blocks.blocks.size() <= kMostSeenBlocks) {
-      return View{region, std::make_shared<const BlockMap>(std::move(blocks))};
+      return View{*region, std::make_shared<const BlockMap>(std::move(blocks))};
     }
     width_px *= kSpare * seen / static_cast<float>(kMostSeenBlocks);  // as many as it is long
   }
@@ -116,10 +136,20 @@ float width_px(const StrandField& seen) {
   return seen_width(seen.channels) * expected_width_px(seen.region);
 }
 
+float magnified_for_px(const StrandField& seen) { return expected_width_px(seen.region); }
+
+bool looks_closer(const Frame& frame, float rope_width_px, float before_px) {
+  const image::Rect box = mask_box(frame);
+  if (box.empty()) return false;
+  const float least_px = least_width_px(rope_width_px);
+  float width_px = least_px;
+  const auto region = fitted(frame, box, least_px, width_px);
+  return region && closer(*region, before_px);
+}
+
 Result<StrandField> see(const Frame& frame, float rope_width_px, Network& network, bool near_parts,
                         threads::Pool* pool) {
-  const geometry::MaskBox mask = geometry::mask_box(frame);
-  const image::Rect box{mask.left, mask.top, mask.width, mask.height};
+  const image::Rect box = mask_box(frame);
   if (box.empty()) {
     return Error{ErrorCode::kNoEvidence,
                  "field: expected a mask, got none; check the segmentation"};
@@ -129,7 +159,7 @@ Result<StrandField> see(const Frame& frame, float rope_width_px, Network& networ
   for (int look = 0; look < kMostLooks; ++look) {
     auto view = view_of(frame, box, width_px, pool);
     if (!view) return view.error();
-    if (look > 0 && view->region.size.area() <= result.region.size.area()) break;
+    if (look > 0 && !closer(view->region, expected_width_px(result.region))) break;
     auto seen = look_at(frame, *view, view->blocks, network, pool);
     if (!seen) return seen.error();
     result = {view->region, *std::move(seen), network.links()};

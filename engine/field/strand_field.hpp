@@ -28,12 +28,23 @@ inline constexpr int kMostRegionPixels = 1 << 21;
 inline constexpr std::size_t kMostSeenBlocks = 1024;
 inline constexpr float kLeastWidth = 0.5F;
 
+/// A further look is worth its time where the width that the rope is magnified for, pixels of the
+/// frame, is at most this share of the one before: a thin or long rope may be as large as it gets.
+inline constexpr float kCloserBy = 0.88F;
+
+/// The width that the rope was magnified for, pixels of the frame.
+[[nodiscard]] float magnified_for_px(const StrandField& seen);
+
+/// Whether `see` would look so much closer for a rope of that width than a look did that was
+/// magnified for `before_px`.
+[[nodiscard]] bool looks_closer(const Frame& frame, float rope_width_px, float before_px);
+
 /// `rope_width_px` is the rope's width in the frame as far as it is known. Where the field itself
 /// says that the rope is narrower than kNarrow of that, as in a mask that merges strands, it is
-/// asked again at the width that it says. With `near_parts`, parts that come much nearer to the
-/// camera than the middle are looked at once more, less magnified (NearParts). `pool` as
-/// threads::share_out has it. Expects a valid frame with a mask. Fails with kNoEvidence where the
-/// mask is empty or spreads over more than is looked at, or as Network::see does.
+/// asked again at the width that it says, where that is closer. With `near_parts`, parts that come
+/// much nearer to the camera than the middle are looked at once more, less magnified (NearParts).
+/// `pool` as threads::share_out has it. Expects a valid frame with a mask. Fails with kNoEvidence
+/// where the mask is empty or spreads over more than is looked at, or as Network::see does.
 [[nodiscard]] Result<StrandField> see(const Frame& frame, float rope_width_px, Network& network,
                                       bool near_parts = false, threads::Pool* pool = nullptr);
 

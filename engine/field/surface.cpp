@@ -13,9 +13,9 @@ Surface::Spot Surface::spot(const Vector2f& p) const {
   Spot spot;
   spot.s_ = p.x() - static_cast<float>(left);
   spot.t_ = p.y() - static_cast<float>(top);
-  for (int i = 0; i < 4; ++i) {
-    const auto* const found = field_.find(top + i / 2, left + i % 2);
-    spot.corners_[static_cast<std::size_t>(i)] = found != nullptr ? found : &kNothing;
+  spot.corners_ = field_.square(top, left);
+  for (const auto*& corner : spot.corners_) {
+    if (corner == nullptr) corner = &kNothing;
   }
   return spot;
 }

@@ -22,7 +22,7 @@ constexpr int kTipBeside_px = 3;                                  // bends to an
 // [0, 1] how much `along` is the direction with the cosine and sine of twice its angle: 0 from 45
 // degrees on.
 float sameness(float cosine, float sine, const Vector2f& along) {
-  const float length = std::hypot(cosine, sine);
+  const float length = std::sqrt(cosine * cosine + sine * sine);
   if (length < 1e-3F) return 0;
   const float twice = along.x() * along.x() - along.y() * along.y();
   return std::max(0.0F, (cosine * twice + sine * 2 * along.x() * along.y()) / length);
@@ -42,24 +42,24 @@ FieldView FieldView::from_copy(const Vector2f& origin, float scale) const {
   return view;
 }
 
-float FieldView::shown(const Vector2f& p, const Vector2f& along, bool below_only) const {
+FieldView::Shown FieldView::shown(const Vector2f& p, const Vector2f& along) const {
   const Surface surface(channels_);
   const Vector2f middle = to_region(p);
   const Vector2f across(-along.y(), along.x());
-  float most = 0;
+  Shown most;
   for (const float beside : kBeside_px) {
-    const Vector2f q = middle + beside * across;
-    const Surface::Spot spot = surface.spot(q);
-    const float top = below_only ? 0 : spot.at(kCentre);
-    if (top > most) {
-      most = std::max(most, top * sameness(spot.at(kCos), spot.at(kSin), along));
+    const Surface::Spot spot = surface.spot(middle + beside * across);
+    const float top = spot.at(kCentre);
+    if (top > most.top) {
+      most.top = std::max(most.top, top * sameness(spot.at(kCos), spot.at(kSin), along));
     }
     const float below = spot.at(kUnder);
-    if (below > most) {
-      most = std::max(most, below * sameness(spot.at(kUnderCos), spot.at(kUnderSin), along));
+    if (below > most.below) {
+      most.below =
+          std::max(most.below, below * sameness(spot.at(kUnderCos), spot.at(kUnderSin), along));
     }
   }
-  return std::min(1.0F, most);
+  return {std::min(1.0F, most.top), std::min(1.0F, most.below)};
 }
 
 float FieldView::at(const Vector2f& p, Channel channel) const {

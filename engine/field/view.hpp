@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 
 #include "field/channel.hpp"
 #include "field/strand_field.hpp"
@@ -19,10 +20,15 @@ class FieldView {
   /// in which the frame's (0, 0) lies at `origin`.
   [[nodiscard]] FieldView from_copy(const Eigen::Vector2f& origin, float scale) const;
 
-  /// [0, 1] how clearly a strand runs by `p` along `along`: one that lies below another, or where
-  /// not `below_only` the one on top.
-  [[nodiscard]] float shown(const Eigen::Vector2f& p, const Eigen::Vector2f& along,
-                            bool below_only) const;
+  /// [0, 1] how clearly a strand runs somewhere along something.
+  struct Shown {
+    float top = 0;    ///< one that lies on top
+    float below = 0;  ///< one that lies below another
+
+    [[nodiscard]] float any() const { return std::max(top, below); }
+  };
+  /// By `p` along `along`.
+  [[nodiscard]] Shown shown(const Eigen::Vector2f& p, const Eigen::Vector2f& along) const;
 
   /// What the field says at `p`; 0 beside what it was asked about.
   [[nodiscard]] float at(const Eigen::Vector2f& p, Channel channel) const;

@@ -24,9 +24,9 @@ constexpr float kProbeStepPx = 1.5F;
 Cover::Cover(const Region& region, const Frame& frame, float width_px, const field::FieldView* seen)
     : region_(region), frame_(frame), width_px_(width_px), seen_(seen) {}
 
-float Cover::shown(const Vector2f& p, const Vector2f& along, bool below_only) const {
-  if (seen_ == nullptr) return 0;
-  return seen_->shown(p + offset_of(region_), along, below_only);
+field::FieldView::Shown Cover::shown(const Vector2f& p, const Vector2f& along) const {
+  if (seen_ == nullptr) return {};
+  return seen_->shown(p + offset_of(region_), along);
 }
 
 bool Cover::masked(const Vector2f& p) const { return lit(region_.mask, p); }

@@ -30,9 +30,9 @@ class Cover {
   /// Whether there is a field to ask.
   [[nodiscard]] bool has_field() const { return seen_ != nullptr; }
 
-  /// As field::FieldView::shown; 0 without a field.
-  [[nodiscard]] float shown(const Eigen::Vector2f& p, const Eigen::Vector2f& along,
-                            bool below_only) const;
+  /// As field::FieldView::shown; nothing without a field.
+  [[nodiscard]] field::FieldView::Shown shown(const Eigen::Vector2f& p,
+                                              const Eigen::Vector2f& along) const;
 
   /// What shows at `p`, where the rope's surface would be `rope_m` deep; 0: depth unknown.
   [[nodiscard]] Sight at(const Eigen::Vector2f& p, float rope_m) const;

@@ -105,6 +105,7 @@ class Linker {
     return true;
   }
 
+  // What shows along the curve; no farther than it takes to tell that the best so far is better.
   void look(Attempt& attempt) const {
     const EndCurve& curve = attempt.curve;
     const bool depths_known = from_.depth_m > 0 && to_.depth_m > 0;
@@ -115,22 +116,31 @@ class Linker {
       const float t = sample_t(i);
       const float step = curve.steps[i];
       const Vector2f p = curve.cubic.at(t);
-      const Vector2f d1 = curve.cubic.first_derivative(t);
       const float to_end =
           std::min(walked_px + 0.5F * step, curve.length_px - walked_px - 0.5F * step);
       walked_px += step;
-      const bool below = to_end > kFollowedWidths * w_;
-      const float shown =
-          d1.norm() > 0 ? std::min(1.0F, cover_.shown(p, d1.normalized(), below) / kShown) : 0.0F;
-      if (cover_.has_field() && cover_.masked(p)) unshown_px += (1 - shown) * step;
-      const bool unsure = !cover_.has_field() && !cover_.masked(p) && cover_.near_mask(p);
-      if (depths_known && !unsure && cover_.open(p, (1 - t) * from_.depth_m + t * to_.depth_m)) {
-        open_px += (1 - shown) * step;
-      }
+      const bool masked = cover_.masked(p);
+      const bool bare = cover_.has_field() && masked;
+      const bool unsure = !cover_.has_field() && !masked && cover_.near_mask(p);
+      const bool open =
+          depths_known && !unsure && cover_.open(p, (1 - t) * from_.depth_m + t * to_.depth_m);
+      if (!bare && !open) continue;
+      const float missed = (1 - shown(p, curve.cubic.first_derivative(t), to_end)) * step;
+      if (bare) unshown_px += missed;
+      if (open) open_px += missed;
+      attempt.terms[kLinkOpen] = saturated(open_px, kOpenWidths * w_);
+      attempt.terms[kLinkUnshown] = saturated(unshown_px, kUnshownWidths * w_);
+      attempt.energy = energy_of(attempt.terms, config_.weights);
+      if (attempt.energy >= best_.energy) return;  // nothing that follows makes it less
     }
-    attempt.terms[kLinkOpen] = saturated(open_px, kOpenWidths * w_);
-    attempt.terms[kLinkUnshown] = saturated(unshown_px, kUnshownWidths * w_);
-    attempt.energy = energy_of(attempt.terms, config_.weights);
+  }
+
+  // [0, 1] how surely the field shows a strand that runs along `way` at `p`, so far from the ends.
+  [[nodiscard]] float shown(const Vector2f& p, const Vector2f& way, float to_end) const {
+    if (way.norm() <= 0) return 0;
+    const auto shown = cover_.shown(p, way.normalized());
+    const bool below = to_end > kFollowedWidths * w_;
+    return std::min(1.0F, (below ? shown.below : shown.any()) / kShown);
   }
 
   const StrandEnd& from_;

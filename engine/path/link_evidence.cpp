@@ -102,15 +102,14 @@ PairFeatures pair_features(int from, int to, const Link& link, const Strands& st
     const Vector2f along = link.curve.cubic.first_derivative(t);
     const bool runs = along.norm() > 0;
     const Sight seen = cover.at(p, (1 - t) * a.depth_m + t * b.depth_m);
-    const float shown = runs ? cover.shown(p, along.normalized(), false) : 0.0F;
-    const float below = runs ? cover.shown(p, along.normalized(), true) : 0.0F;
+    const auto shown = runs ? cover.shown(p, along.normalized()) : field::FieldView::Shown{};
     constexpr float kShare = 1.0F / kCurveSamples;
     f[kPairHidden] += seen == Sight::kHidden ? kShare : 0.0F;
     f[kPairOpen] += seen == Sight::kOpen ? kShare : 0.0F;
     f[kPairMasked] += cover.masked(p) ? kShare : 0.0F;
-    f[kPairShown] += kShare * shown;
-    f[kPairBelow] += kShare * below;
-    f[kPairWorst] = std::min(f[kPairWorst], shown);
+    f[kPairShown] += kShare * shown.any();
+    f[kPairBelow] += kShare * shown.below;
+    f[kPairWorst] = std::min(f[kPairWorst], shown.any());
   }
   const float widths = link.curve.length_px / w;
   f[kPairOpenFar] = std::log1p(f[kPairOpen] * widths);

@@ -322,6 +322,7 @@ TEST(RopeReadings, TheAxesRopesAreTakenAndTheMasksSayWhichTheyKnow) {
   ASSERT_TRUE(masked) << masked.error().message;
   field::Axes axes;  // of one of the two ropes whole, of the other one a half
   axes.width_px = masked->rope_width_px;
+  axes.magnified_for_px = axes.width_px;
   for (const path::Path& rope : masked->ropes) axes.lines.push_back({rope.points_px, {1, 1}});
   auto& half = axes.lines.back().points_px;
   half.resize(half.size() / 2);
@@ -342,6 +343,7 @@ TEST(RopeReadings, TheAxesRopesAreTakenAndTheMasksSayWhichTheyKnow) {
 field::Axes axes_of(const path::RopePaths& ropes) {
   field::Axes axes;
   axes.width_px = ropes.rope_width_px;
+  axes.magnified_for_px = axes.width_px;
   for (const path::Path& rope : ropes.ropes) axes.lines.push_back({rope.points_px, {1, 1}});
   return axes;
 }
@@ -381,6 +383,22 @@ TEST(RopeReadings, WithoutACloserLookTheFirstOneStands) {
   for (std::size_t i = 0; i < first->ropes.size(); ++i) {
     EXPECT_EQ(read->paths.ropes[i].points_px, first->ropes[i].points_px);
   }
+}
+
+TEST(RopeReadings, WhereTheFieldCannotLookCloserItIsAskedOnce) {
+  const auto scene = make_ropes(RopesKind::kCrossing, 2, 0);
+  const auto masked = path::trace_ropes(scene.frame(), 0);
+  ASSERT_TRUE(masked) << masked.error().message;
+  auto axes = axes_of(*masked);
+  axes.lines.pop_back();  // the other rope is in doubt
+  axes.magnified_for_px = estimator::kCloser * axes.width_px;
+  int asked = 0;
+  const auto read = estimator::read_ropes(scene.frame(), 0, [&](float) {
+    ++asked;
+    return std::optional(axes);
+  });
+  ASSERT_TRUE(read) << read.error().message;
+  EXPECT_EQ(asked, 1);
 }
 
 TEST(RopeReadings, WhereTheAxesMakeNoRopesTheMasksAreInDoubt) {
@@ -434,7 +452,7 @@ TEST(RopeViews, TakeAlongWhatTheFieldShows) {
     const auto& points = traced.paths.ranked.front().points_px;
     const std::size_t place = points.size() / 10;
     const Eigen::Vector2f along = (points[place + 2] - points[place]).normalized();
-    EXPECT_GT(traced.seen->shown(points[place + 1], along, false), 0.4F);
+    EXPECT_GT(traced.seen->shown(points[place + 1], along).any(), 0.4F);
   }
   const auto masked = estimator::part_ropes(frame, 0);
   ASSERT_TRUE(masked);

@@ -94,6 +94,18 @@ TEST_F(LookAgain, WhereThereIsAPictureTheFieldLooksCloserAndTheMaskIsNotRead) {
   EXPECT_EQ(look(true).readings, 2) << "of a tangle the mask, for the field does not look closer";
 }
 
+TEST_F(LookAgain, WhereTheFieldCannotLookCloserTheMaskIsReadInItsPlace) {
+  conditions_.of_mask = false;
+  const std::vector<std::uint8_t> picture(
+      3 * static_cast<std::size_t>(frame_.width) * static_cast<std::size_t>(frame_.height), 90);
+  frame_.color_bgr = picture;
+  conditions_.axes = field::Axes{};
+  conditions_.axes->magnified_for_px = estimator::kCloser * conditions_.paths.rope_width_px;
+  const auto again = look(true);
+  EXPECT_EQ(again.readings, 2);
+  EXPECT_TRUE(again.axes->lines.empty()) << "of the first look";
+}
+
 TEST_F(LookAgain, WhatHasNoRopesShapeIsReadOnce) {
   auto& nodes = conditions_.hypotheses.front().prior.nodes;
   for (std::size_t i = 0; i < kNodes; ++i) nodes[i] = nodes[i / 16];  // a stub

@@ -38,21 +38,56 @@ TEST(StrandField, AMaskThatSpreadsFartherThanARopeIsRefused) {
   EXPECT_NE(field.error().message.find("check the segmentation"), std::string::npos);
 }
 
-TEST(StrandField, ALongThinRopeIsMagnifiedLess) {
-  constexpr int kSide = 420;  // a rope of 2 px, which four times magnified is 2.8 million pixels
-  const std::vector<float> depth_m(kSide * kSide, 0.5F);
-  std::vector<std::uint8_t> mask(kSide * kSide, 0);
-  for (std::size_t i = 0; i < kSide; ++i) {
-    for (const std::size_t u : {i, std::min<std::size_t>(i + 1, kSide - 1)}) {
-      mask[i * kSide + u] = 255;
+/// A rope 2 px wide from corner to corner: four times magnified it is 2.8 million pixels.
+class LongThinRope : public ::testing::Test {
+ protected:
+  static constexpr int kSide = 420;
+
+  LongThinRope() {
+    for (std::size_t i = 0; i < kSide; ++i) {
+      for (const std::size_t u : {i, std::min<std::size_t>(i + 1, kSide - 1)}) {
+        mask_[i * kSide + u] = 255;
+      }
     }
   }
+
+  [[nodiscard]] Frame frame() const {
+    return {kSide, kSide, {400, 400, 210, 210}, depth_m_, mask_, {}};
+  }
+
+ private:
+  std::vector<float> depth_m_ = std::vector<float>(kSide * kSide, 0.5F);
+  std::vector<std::uint8_t> mask_ = std::vector<std::uint8_t>(kSide * kSide, 0);
+};
+
+TEST_F(LongThinRope, IsMagnifiedLess) {
   auto network = seeded();
-  const auto field = see({kSide, kSide, {400, 400, 210, 210}, depth_m, mask, {}}, 2, network);
+  const auto field = see(frame(), 2, network);
   ASSERT_TRUE(field) << field.error().message;
   EXPECT_LE(field->channels.size().area(), kMostRegionPixels);
   EXPECT_LT(field->region.scale.x(), kMostScale);
   EXPECT_GE(field->region.scale.x(), kLeastWidth * kMostScale);
+}
+
+TEST_F(LongThinRope, CannotBeLookedAtMoreCloselyThanItFits) {
+  auto network = seeded();
+  const auto field = see(frame(), 2, network);
+  ASSERT_TRUE(field) << field.error().message;
+  const float before_px = magnified_for_px(*field);
+  EXPECT_GT(before_px, 2);
+  EXPECT_FALSE(looks_closer(frame(), 1, before_px)) << "the region is as large as it gets";
+  EXPECT_FALSE(looks_closer(frame(), before_px, before_px));
+  EXPECT_TRUE(looks_closer(frame(), 2, 2 * before_px));
+}
+
+TEST(StrandField, ALookIsCloserByAGoodDealOrNotAtAll) {
+  const testing::WaveFrame wave;
+  EXPECT_TRUE(looks_closer(wave.frame(), 8 * 0.7F, 8));
+  EXPECT_FALSE(looks_closer(wave.frame(), 8 * 0.95F, 8));
+  EXPECT_FALSE(looks_closer(wave.frame(), 12, 8));
+  const float narrowest_px = kRope_px / kMostScale;
+  EXPECT_FALSE(looks_closer(wave.frame(), 0.5F * narrowest_px, narrowest_px))
+      << "there is nothing more to see";
 }
 
 TEST(StrandField, AnEmptyMaskHasNone) {
@@ -64,6 +99,7 @@ TEST(StrandField, AnEmptyMaskHasNone) {
   const auto field = see(frame, 8, network);
   ASSERT_FALSE(field);
   EXPECT_EQ(field.error().code, ErrorCode::kNoEvidence);
+  EXPECT_FALSE(looks_closer(frame, 8, 16));
 }
 
 }  // namespace
