@@ -140,7 +140,7 @@ float magnified_for_px(const StrandField& seen) { return expected_width_px(seen.
 
 bool looks_closer(const Frame& frame, float rope_width_px, float before_px) {
   const image::Rect box = mask_box(frame);
-  if (box.empty()) return false;
+  if (box.empty() || kAllSeenScale * before_px <= kRope_px) return false;
   const float least_px = least_width_px(rope_width_px);
   float width_px = least_px;
   const auto region = fitted(frame, box, least_px, width_px);

@@ -24,7 +24,7 @@ inline constexpr float kNarrow = 0.82F;
 
 /// Pixels of a region, and blocks of it near the mask, 75 MB and 0.4 s of one core, that are
 /// looked at. A region beyond that is magnified less: down to a rope of kLeastWidth of its width.
-inline constexpr int kMostRegionPixels = 1 << 21;
+inline constexpr int kMostRegionPixels = 1 << 22;
 inline constexpr std::size_t kMostSeenBlocks = 1024;
 inline constexpr float kLeastWidth = 0.5F;
 
@@ -32,11 +32,15 @@ inline constexpr float kLeastWidth = 0.5F;
 /// frame, is at most this share of the one before: a thin or long rope may be as large as it gets.
 inline constexpr float kCloserBy = 0.88F;
 
+/// And where a pixel of the frame was smaller than this in the region before: beyond that the frame
+/// holds nothing more to see. Chosen on `wide` training scenes (docs/field.md).
+inline constexpr float kAllSeenScale = 1.5F;
+
 /// The width that the rope was magnified for, pixels of the frame.
 [[nodiscard]] float magnified_for_px(const StrandField& seen);
 
-/// Whether `see` would look so much closer for a rope of that width than a look did that was
-/// magnified for `before_px`.
+/// Whether `see` would look so much closer for a rope of that width, and see more, than a look did
+/// that was magnified for `before_px`.
 [[nodiscard]] bool looks_closer(const Frame& frame, float rope_width_px, float before_px);
 
 /// `rope_width_px` is the rope's width in the frame as far as it is known. Where the field itself

@@ -27,7 +27,7 @@ TEST(StrandField, HasTheRegionsSize) {
 }
 
 TEST(StrandField, AMaskThatSpreadsFartherThanARopeIsRefused) {
-  constexpr int kSide = 1200;  // a comb of hairs, which four times magnified is 23 million pixels
+  constexpr int kSide = 1200;  // a comb of hairs, which three times magnified is 13 million pixels
   const std::vector<float> depth_m(kSide * kSide, 0.5F);
   std::vector<std::uint8_t> mask(kSide * kSide, 0);
   for (std::size_t i = 0; i < mask.size(); i += 8) mask[i] = 255;
@@ -38,10 +38,10 @@ TEST(StrandField, AMaskThatSpreadsFartherThanARopeIsRefused) {
   EXPECT_NE(field.error().message.find("check the segmentation"), std::string::npos);
 }
 
-/// A rope 2 px wide from corner to corner: four times magnified it is 2.8 million pixels.
+/// A rope 2 px wide from corner to corner: three times magnified it is 4.7 million pixels.
 class LongThinRope : public ::testing::Test {
  protected:
-  static constexpr int kSide = 420;
+  static constexpr int kSide = 720;
 
   LongThinRope() {
     for (std::size_t i = 0; i < kSide; ++i) {
@@ -52,7 +52,7 @@ class LongThinRope : public ::testing::Test {
   }
 
   [[nodiscard]] Frame frame() const {
-    return {kSide, kSide, {400, 400, 210, 210}, depth_m_, mask_, {}};
+    return {kSide, kSide, {400, 400, 360, 360}, depth_m_, mask_, {}};
   }
 
  private:
@@ -77,7 +77,7 @@ TEST_F(LongThinRope, CannotBeLookedAtMoreCloselyThanItFits) {
   EXPECT_GT(before_px, 2);
   EXPECT_FALSE(looks_closer(frame(), 1, before_px)) << "the region is as large as it gets";
   EXPECT_FALSE(looks_closer(frame(), before_px, before_px));
-  EXPECT_TRUE(looks_closer(frame(), 2, 2 * before_px));
+  EXPECT_TRUE(looks_closer(frame(), 2, 4 * before_px));
 }
 
 TEST(StrandField, ALookIsCloserByAGoodDealOrNotAtAll) {
@@ -85,8 +85,9 @@ TEST(StrandField, ALookIsCloserByAGoodDealOrNotAtAll) {
   EXPECT_TRUE(looks_closer(wave.frame(), 8 * 0.7F, 8));
   EXPECT_FALSE(looks_closer(wave.frame(), 8 * 0.95F, 8));
   EXPECT_FALSE(looks_closer(wave.frame(), 12, 8));
-  const float narrowest_px = kRope_px / kMostScale;
-  EXPECT_FALSE(looks_closer(wave.frame(), 0.5F * narrowest_px, narrowest_px))
+  const float all_seen_px = kRope_px / kAllSeenScale;
+  EXPECT_TRUE(looks_closer(wave.frame(), 0.7F * all_seen_px, 1.01F * all_seen_px));
+  EXPECT_FALSE(looks_closer(wave.frame(), 0.7F * all_seen_px, 0.99F * all_seen_px))
       << "there is nothing more to see";
 }
 
