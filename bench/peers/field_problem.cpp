@@ -43,8 +43,7 @@ Result<FieldProblem> region_problem(std::shared_ptr<const weights::FieldWeights>
   const Frame view = folder->frame();
   const auto traced = path::trace(view);
   if (!traced) return traced.error();
-  const auto [left, top, width, height] = geometry::mask_box(view);
-  const auto region = field::region_around({left, top, width, height}, {view.width, view.height},
+  const auto region = field::region_around(geometry::mask_box(view), {view.width, view.height},
                                            traced->rope_width_px);
   const auto sight = field::look(view, region);
   FieldProblem problem;

@@ -28,7 +28,8 @@ struct RopeReadings {
 
 /// Those of the axes that `see` shows, for strands that the mask merges lie apart there: by heed of
 /// the mask's reading, whose ropes are their witness. Where one of them is not told apart surely,
-/// by heed of a closer look (kCloser) as well, either's opinion by half. The mask's
+/// by heed of a closer look (kCloser), if there is one (field::looks_closer), as well, either's
+/// opinion by half. The mask's
 /// (`path::trace_ropes`) where it is noise, or `see` shows nothing or no ropes. Expects a valid
 /// frame. Fails as path::trace_ropes does of the mask.
 [[nodiscard]] Result<RopeReadings> read_ropes(const Frame& frame, int ropes, const SeeAxes& see);

@@ -20,6 +20,8 @@ Eigen::Vector2f Region::to_frame(const Eigen::Vector2f& region_px) const {
   return ((region_px.array() + 0.5F) / scale.array() - 0.5F).matrix() + corner;
 }
 
+float Region::magnified_for_px() const { return kRope_px / std::sqrt(scale.x() * scale.y()); }
+
 Region region_around(const image::Rect& mask_box, const image::Size& frame, float rope_width_px) {
   const int margin = static_cast<int>(std::ceil(kMarginWidths * rope_width_px + kMargin_px));
   Region region;

@@ -27,6 +27,9 @@ struct Region {
   /// Centres of pixels are whole numbers in both.
   [[nodiscard]] Eigen::Vector2f to_region(const Eigen::Vector2f& frame_px) const;
   [[nodiscard]] Eigen::Vector2f to_frame(const Eigen::Vector2f& region_px) const;
+
+  /// The rope's width that it was made for, pixels of the frame.
+  [[nodiscard]] float magnified_for_px() const;
 };
 
 /// Of a mask within `mask_box` of a frame; `rope_width_px` is the rope's width there, frame pixels,

@@ -37,18 +37,8 @@ float seen_width(const Channels& field) {
   return std::exp2(*middle);
 }
 
-/// The rope's width that a region was made for, pixels of the frame.
-float expected_width_px(const Region& region) {
-  return kRope_px / std::sqrt(region.scale.x() * region.scale.y());
-}
-
 bool closer(const Region& region, float before_px) {
-  return expected_width_px(region) <= kCloserBy * before_px;
-}
-
-image::Rect mask_box(const Frame& frame) {
-  const geometry::MaskBox mask = geometry::mask_box(frame);
-  return {mask.left, mask.top, mask.width, mask.height};
+  return region.magnified_for_px() <= kCloserBy * before_px;
 }
 
 Error too_large(const image::Rect& box, float rope_width_px) {
@@ -66,8 +56,9 @@ struct View {
   std::shared_ptr<const BlockMap> blocks;
 };
 
-/// The region at the rope's width, or magnified less as far as kMostRegionPixels takes; nothing
-/// where strands could not be parted then. `width_px` is what it is magnified for.
+/// The region for a rope of `width_px`, or magnified less as far as kMostRegionPixels takes, which
+/// `width_px` tells then; nothing where that is beyond what strands of a rope of `least_px` can be
+/// parted with.
 std::optional<Region> fitted(const Frame& frame, const image::Rect& box, float least_px,
                              float& width_px) {
   for (int fit = 0; fit < kMostFits && width_px * kLeastWidth <= least_px; ++fit) {
@@ -118,7 +109,7 @@ Result<void> look_at_near_parts(const Frame& frame, const image::Rect& box, Netw
                                 StrandField& seen, threads::Pool* pool) {
   const float octaves = wide_octaves(seen.channels);
   if (octaves <= 0) return {};
-  auto view = view_of(frame, box, std::exp2(octaves) * expected_width_px(seen.region), pool);
+  auto view = view_of(frame, box, std::exp2(octaves) * seen.region.magnified_for_px(), pool);
   if (!view) return view.error();
   const NearParts parts(seen.channels, octaves);
   const auto blocks =
@@ -133,14 +124,13 @@ Result<void> look_at_near_parts(const Frame& frame, const image::Rect& box, Netw
 }  // namespace
 
 float width_px(const StrandField& seen) {
-  return seen_width(seen.channels) * expected_width_px(seen.region);
+  return seen_width(seen.channels) * seen.region.magnified_for_px();
 }
 
-float magnified_for_px(const StrandField& seen) { return expected_width_px(seen.region); }
-
 bool looks_closer(const Frame& frame, float rope_width_px, float before_px) {
-  const image::Rect box = mask_box(frame);
-  if (box.empty() || kAllSeenScale * before_px <= kRope_px) return false;
+  if (kAllSeenScale * before_px <= kRope_px) return false;
+  const image::Rect box = geometry::mask_box(frame);
+  if (box.empty()) return false;
   const float least_px = least_width_px(rope_width_px);
   float width_px = least_px;
   const auto region = fitted(frame, box, least_px, width_px);
@@ -149,7 +139,7 @@ bool looks_closer(const Frame& frame, float rope_width_px, float before_px) {
 
 Result<StrandField> see(const Frame& frame, float rope_width_px, Network& network, bool near_parts,
                         threads::Pool* pool) {
-  const image::Rect box = mask_box(frame);
+  const image::Rect box = geometry::mask_box(frame);
   if (box.empty()) {
     return Error{ErrorCode::kNoEvidence,
                  "field: expected a mask, got none; check the segmentation"};
@@ -159,7 +149,7 @@ Result<StrandField> see(const Frame& frame, float rope_width_px, Network& networ
   for (int look = 0; look < kMostLooks; ++look) {
     auto view = view_of(frame, box, width_px, pool);
     if (!view) return view.error();
-    if (look > 0 && !closer(view->region, expected_width_px(result.region))) break;
+    if (look > 0 && !closer(view->region, result.region.magnified_for_px())) break;
     auto seen = look_at(frame, *view, view->blocks, network, pool);
     if (!seen) return seen.error();
     result = {view->region, *std::move(seen), network.links()};

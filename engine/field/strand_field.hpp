@@ -36,11 +36,8 @@ inline constexpr float kCloserBy = 0.88F;
 /// holds nothing more to see. Chosen on `wide` training scenes (docs/field.md).
 inline constexpr float kAllSeenScale = 1.5F;
 
-/// The width that the rope was magnified for, pixels of the frame.
-[[nodiscard]] float magnified_for_px(const StrandField& seen);
-
 /// Whether `see` would look so much closer for a rope of that width, and see more, than a look did
-/// that was magnified for `before_px`.
+/// that was magnified for `before_px` (Region::magnified_for_px).
 [[nodiscard]] bool looks_closer(const Frame& frame, float rope_width_px, float before_px);
 
 /// `rope_width_px` is the rope's width in the frame as far as it is known. Where the field itself

@@ -51,10 +51,10 @@ struct Cells {
 Cells mask_cells(const Frame& frame, float width_px) {
   Cells cells;
   cells.stride_px = std::max(1, static_cast<int>(width_px / kCellsAcross));
-  const geometry::MaskBox box = geometry::mask_box(frame);
-  if (box.width == 0) return cells;
-  cells.left_px = box.left;
-  cells.top_px = box.top;
+  const image::Rect box = geometry::mask_box(frame);
+  if (box.empty()) return cells;
+  cells.left_px = box.x;
+  cells.top_px = box.y;
   cells.width = (box.width - 1) / cells.stride_px + 1;
   cells.height = (box.height - 1) / cells.stride_px + 1;
   cells.left.resize(cells.at(0, cells.height));

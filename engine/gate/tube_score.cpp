@@ -110,8 +110,8 @@ TubeView::TubeView(const Frame& frame, float rope_width_px)
     : frame_(frame),
       rope_width_px_(usual_width_px(rope_width_px)),
       stride_px_(std::max(1, static_cast<int>(rope_width_px_ / kCellsAcross))) {
-  const geometry::MaskBox mask = geometry::mask_box(frame);
-  if (mask.width == 0) return;
+  const image::Rect mask = geometry::mask_box(frame);
+  if (mask.empty()) return;
   find_region(mask);
   while (static_cast<float>(width_) * static_cast<float>(height_) > kMostCells) {
     ++stride_px_;
@@ -121,12 +121,12 @@ TubeView::TubeView(const Frame& frame, float rope_width_px)
 }
 
 /// The cells that hold the mask and a margin.
-void TubeView::find_region(const geometry::MaskBox& mask) {
+void TubeView::find_region(const image::Rect& mask) {
   const int margin = static_cast<int>(kMargin * rope_width_px_) + 2;
-  left_px_ = std::max(0, mask.left - margin);
-  top_px_ = std::max(0, mask.top - margin);
-  const int right = std::min(frame_.width - 1, mask.left + mask.width - 1 + margin);
-  const int bottom = std::min(frame_.height - 1, mask.top + mask.height - 1 + margin);
+  left_px_ = std::max(0, mask.x - margin);
+  top_px_ = std::max(0, mask.y - margin);
+  const int right = std::min(frame_.width - 1, mask.x + mask.width - 1 + margin);
+  const int bottom = std::min(frame_.height - 1, mask.y + mask.height - 1 + margin);
   width_ = (right - left_px_) / stride_px_ + 1;
   height_ = (bottom - top_px_) / stride_px_ + 1;
 }

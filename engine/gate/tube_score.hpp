@@ -53,7 +53,7 @@ class TubeView {
   [[nodiscard]] TubeScore score(const Centerline& nodes, float radius_m);
 
  private:
-  void find_region(const geometry::MaskBox& mask);
+  void find_region(const image::Rect& mask);
   [[nodiscard]] std::size_t pixel_of(int column, int row) const;
   [[nodiscard]] bool masked(std::size_t pixel) const;
   [[nodiscard]] float depth_m(std::size_t pixel) const;

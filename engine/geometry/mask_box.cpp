@@ -32,7 +32,7 @@ int first_masked(const std::uint8_t* pixels, int from, int count) {
   return from;
 }
 
-MaskBox mask_box(const Frame& frame) {
+image::Rect mask_box(const Frame& frame) {
   const auto row = [&](int v) {
     return frame.mask.data() + static_cast<std::size_t>(v) * static_cast<std::size_t>(frame.width);
   };

@@ -156,4 +156,13 @@ Components components(const Image<const std::uint8_t>& mask, Neighbours neighbou
   return Labeller(mask, neighbours).run();
 }
 
+void set_pieces(const Image<const int>& labels, const std::vector<std::uint8_t>& values,
+                Mask& mask) {
+  for (int v = 0; v < mask.height(); ++v) {
+    const int* label = labels.row(v);
+    std::uint8_t* row = mask.row(v);
+    for (int u = 0; u < mask.width(); ++u) row[u] = values[static_cast<std::size_t>(label[u])];
+  }
+}
+
 }  // namespace flowdlo::image

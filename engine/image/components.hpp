@@ -1,6 +1,7 @@
 // Components: the connected pieces of a mask.
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "image/image.hpp"
@@ -24,5 +25,9 @@ struct Components {
 /// Pieces are numbered as they come, row by row; those of eight neighbours by pairs of rows and, in
 /// a pair, by pairs of columns.
 [[nodiscard]] Components components(const Image<const std::uint8_t>& mask, Neighbours neighbours);
+
+/// Each pixel of `mask` becomes what `values` says of its label.
+void set_pieces(const Image<const int>& labels, const std::vector<std::uint8_t>& values,
+                Mask& mask);
 
 }  // namespace flowdlo::image

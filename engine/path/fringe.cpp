@@ -37,17 +37,10 @@ int count_dark(const image::Mask& mask) {
 float usual_half_px(const image::Image<float>& distance) {
   std::vector<float> ridge;
   double area = 0;
-  for (int v = 1; v + 1 < distance.height(); ++v) {
-    const float* up = distance.row(v - 1);
-    const float* row = distance.row(v);
-    const float* down = distance.row(v + 1);
-    for (int u = 1; u + 1 < distance.width(); ++u) {
-      const float d = row[u];
-      if (d <= 0 || d < row[u - 1] || d < row[u + 1] || d < up[u] || d < down[u]) continue;
-      ridge.push_back(d);
-      area += static_cast<double>(d);
-    }
-  }
+  image::for_ridges(distance, [&](float d) {
+    ridge.push_back(d);
+    area += static_cast<double>(d);
+  });
   std::sort(ridge.begin(), ridge.end());
   double sum = 0;
   for (const float d : ridge) {
@@ -96,6 +89,7 @@ std::vector<Piece> measure(const image::Image<int>& labels, int count, float hal
 // Thin, or short where there are many of them, and alongside the rope.
 std::vector<std::uint8_t> pieces_to_keep(const std::vector<Piece>& pieces, float half_px) {
   std::vector<std::uint8_t> keep(pieces.size(), 1);
+  keep.front() = 0;  // what is empty
   int thin = 0;
   for (const bool again : {false, true}) {
     for (std::size_t i = 1; i < pieces.size(); ++i) {
@@ -122,12 +116,9 @@ bool erase_fringes(image::Mask& mask) {
   const auto count = static_cast<int>(found.size());
   const std::vector<std::uint8_t> keep =
       pieces_to_keep(measure(labels, count, half_px, distance), half_px);
-  if (std::all_of(keep.begin(), keep.end(), [](std::uint8_t k) { return k != 0; })) return false;
-  for (int v = 0; v < mask.height(); ++v) {
-    const int* label = labels.row(v);
-    std::uint8_t* row = mask.row(v);
-    for (int u = 0; u < mask.width(); ++u) row[u] &= keep[static_cast<std::size_t>(label[u])];
-  }
+  if (std::all_of(keep.begin() + 1, keep.end(), [](std::uint8_t k) { return k != 0; }))
+    return false;
+  image::set_pieces(labels, keep, mask);
   return true;
 }
 

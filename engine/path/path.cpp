@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "geometry/mask_box.hpp"
 #include "guard/guarded.hpp"
 #include "image/masks.hpp"
 #include "path/graph.hpp"
@@ -96,7 +97,7 @@ float slender(const Region& region) {
 
 Result<Glance> glance(const Frame& frame) {
   return guard::guarded("path", [&]() -> Result<Glance> {
-    const image::Rect box = bounding_box(frame);
+    const image::Rect box = geometry::mask_box(frame);
     const int times = reduction_of(frame, box);
     if (times > 1) {
       const Reduced copy(frame, box, times);

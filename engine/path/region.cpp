@@ -1,8 +1,9 @@
 #include "path/region.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
-#include <string>
 #include <utility>
 #include <vector>
 
@@ -40,20 +41,11 @@ image::Mask crop(const Frame& frame, const image::Rect& box) {
 // beside each other the mask is twice as wide.
 float ridge_width(const image::Image<float>& distance) {
   std::vector<double> weight(512, 0.0);
-  for (int v = 1; v + 1 < distance.height(); ++v) {
-    const float* up = distance.row(v - 1);
-    const float* row = distance.row(v);
-    const float* down = distance.row(v + 1);
-    for (int u = 1; u + 1 < distance.width(); ++u) {
-      const float d = row[u];
-      if (d <= 0) continue;
-      const bool ridge = d >= row[u - 1] && d >= row[u + 1] && d >= up[u] && d >= down[u];
-      if (!ridge) continue;
-      const auto bin = static_cast<std::size_t>(std::lround(d * 2));
-      if (bin >= weight.size()) weight.resize(bin + 1, 0.0);
-      weight[bin] += d;
-    }
-  }
+  image::for_ridges(distance, [&](float d) {
+    const auto bin = static_cast<std::size_t>(std::lround(d * 2));
+    if (bin >= weight.size()) weight.resize(bin + 1, 0.0);
+    weight[bin] += d;
+  });
   const auto quantile = [&](double share, std::size_t bins) {
     double all = 0;
     for (std::size_t bin = 0; bin < bins; ++bin) all += weight[bin];
@@ -83,11 +75,7 @@ int erase_specks(image::Mask& mask, double least_area) {
     all = all && keep[i] != 0;
   }
   if (all) return largest;
-  for (int v = 0; v < mask.height(); ++v) {
-    const int* label = labels.row(v);
-    std::uint8_t* row = mask.row(v);
-    for (int u = 0; u < mask.width(); ++u) row[u] = keep[label[u]];
-  }
+  image::set_pieces(labels, keep, mask);
   return largest >= kSpeckAreaPx ? largest : 0;
 }
 
@@ -105,12 +93,9 @@ bool fill_highlights(image::Mask& mask, float width) {
     if (i != outside && pieces[i].area <= most) fill[i] = 1;
   }
   if (std::find(fill.begin(), fill.end(), 1) == fill.end()) return false;
-  image::Mask filled = mask.clone();
-  for (int v = 0; v < mask.height(); ++v) {
-    const int* label = labels.row(v);
-    std::uint8_t* row = filled.row(v);
-    for (int u = 0; u < mask.width(); ++u) row[u] |= fill[label[u]];
-  }
+  fill.front() = 1;  // what is mask already
+  image::Mask filled(mask.size());
+  image::set_pieces(labels, fill, filled);
   const image::Image<float> distance = image::distance_to_empty(filled);
   std::vector<float> depth(count, 0.0F);
   for (int v = 0; v < mask.height(); ++v) {
@@ -128,20 +113,11 @@ bool fill_highlights(image::Mask& mask, float width) {
     any = any || fill[i] != 0;
   }
   if (!any) return false;
-  for (int v = 0; v < mask.height(); ++v) {
-    const int* label = labels.row(v);
-    std::uint8_t* row = mask.row(v);
-    for (int u = 0; u < mask.width(); ++u) row[u] |= fill[label[u]];
-  }
+  image::set_pieces(labels, fill, mask);
   return true;
 }
 
 }  // namespace
-
-image::Rect bounding_box(const Frame& frame) {
-  const geometry::MaskBox box = geometry::mask_box(frame);
-  return {box.left, box.top, box.width, box.height};
-}
 
 bool lit(const image::Mask& mask, int u, int v) {
   return u >= 0 && v >= 0 && u < mask.width() && v < mask.height() && mask.at(v, u) != 0;
@@ -163,7 +139,7 @@ Region smoothed(const Region& region, int size_px) {
 }
 
 Result<Region> clean(const Frame& frame, int ropes) {
-  const image::Rect box = bounding_box(frame);
+  const image::Rect box = geometry::mask_box(frame);
   if (box.empty()) {
     return Error{
         ErrorCode::kNoPath,
@@ -177,9 +153,10 @@ Result<Region> clean(const Frame& frame, int ropes) {
   region.filtered = strokes->filtered;
   erase_fringes(region.mask);
   if (erase_specks(region.mask, 0) == 0) {
-    return Error{ErrorCode::kNoPath, "path: expected a stroke, got only specks of fewer than " +
-                                         std::to_string(kSpeckAreaPx) +
-                                         " pixels; check the segmentation"};
+    return Error{ErrorCode::kNoPath,
+                 fmt::format("path: expected a stroke, got only specks of fewer than {} pixels; "
+                             "check the segmentation",
+                             kSpeckAreaPx)};
   }
   region.distance_px = image::distance_to_empty(region.mask);
   region.width_px = ridge_width(region.distance_px);

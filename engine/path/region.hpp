@@ -31,9 +31,6 @@ struct Region {
 [[nodiscard]] bool lit(const image::Mask& mask, int u, int v);
 [[nodiscard]] bool lit(const image::Mask& mask, const Eigen::Vector2f& p);
 
-/// The smallest rectangle that holds the mask; empty without any.
-[[nodiscard]] image::Rect bounding_box(const Frame& frame);
-
 /// Crops and cleans the mask. Fails with kNoPath when it is empty, holds specks only, or more
 /// strokes than one rope, or several, can have made (`strokes_of`).
 [[nodiscard]] Result<Region> clean(const Frame& frame, int ropes = 1);

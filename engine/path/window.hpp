@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "flowdlo/frame.hpp"
+#include "geometry/mask_box.hpp"
 #include "path/path.hpp"
 #include "path/region.hpp"
 
@@ -67,7 +68,7 @@ class Reduced {
 /// copy)`, brought back to the pixels of the frame.
 template <class Answer, class Trace>
 [[nodiscard]] Result<Answer> trace_reduced(const Frame& frame, const Trace& trace) {
-  const image::Rect box = bounding_box(frame);
+  const image::Rect box = geometry::mask_box(frame);
   const int times = reduction_of(frame, box);
   if (times == 1) return trace(frame, nullptr);
   const Reduced reduced(frame, box, times);

@@ -316,14 +316,20 @@ TEST(RopeReadings, WithoutAFieldTheMasksRopesHaveNoWitness) {
   }
 }
 
+/// The axes of what the mask's reading has.
+field::Axes axes_of(const path::RopePaths& ropes) {
+  field::Axes axes;
+  axes.width_px = ropes.rope_width_px;
+  axes.magnified_for_px = axes.width_px;
+  for (const path::Path& rope : ropes.ropes) axes.lines.push_back({rope.points_px, {1, 1}});
+  return axes;
+}
+
 TEST(RopeReadings, TheAxesRopesAreTakenAndTheMasksSayWhichTheyKnow) {
   const auto scene = make_ropes(RopesKind::kCrossing, 2, 0);
   const auto masked = path::trace_ropes(scene.frame(), 0);
   ASSERT_TRUE(masked) << masked.error().message;
-  field::Axes axes;  // of one of the two ropes whole, of the other one a half
-  axes.width_px = masked->rope_width_px;
-  axes.magnified_for_px = axes.width_px;
-  for (const path::Path& rope : masked->ropes) axes.lines.push_back({rope.points_px, {1, 1}});
+  field::Axes axes = axes_of(*masked);  // of one of the two ropes whole, of the other one a half
   auto& half = axes.lines.back().points_px;
   half.resize(half.size() / 2);
   std::vector<float> asked_px;
@@ -337,15 +343,6 @@ TEST(RopeReadings, TheAxesRopesAreTakenAndTheMasksSayWhichTheyKnow) {
   EXPECT_FLOAT_EQ(asked_px[1], estimator::kCloser * axes.width_px);
   EXPECT_THAT(read->witness, ::testing::UnorderedElementsAre(estimator::Witness::kAgrees,
                                                              estimator::Witness::kDiffers));
-}
-
-/// The axes of what the mask's reading has.
-field::Axes axes_of(const path::RopePaths& ropes) {
-  field::Axes axes;
-  axes.width_px = ropes.rope_width_px;
-  axes.magnified_for_px = axes.width_px;
-  for (const path::Path& rope : ropes.ropes) axes.lines.push_back({rope.points_px, {1, 1}});
-  return axes;
 }
 
 TEST(RopeReadings, RopesThatAreToldApartSurelyAreLookedAtOnce) {

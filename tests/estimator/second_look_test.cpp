@@ -33,7 +33,14 @@ class LookAgain : public ::testing::Test {
     for (std::size_t i = kNodes / 2; i < kNodes; ++i) nodes[i].y += shift_m;
   }
 
+  void give_picture() {
+    picture_.assign(
+        3 * static_cast<std::size_t>(frame_.width) * static_cast<std::size_t>(frame_.height), 90);
+    frame_.color_bgr = picture_;
+  }
+
   testing::WaveFrame wave_;
+  std::vector<std::uint8_t> picture_;
   Frame frame_ = wave_.frame();
   estimator::Conditions conditions_ = testing::gathered(frame_);
 };
@@ -86,9 +93,7 @@ TEST_F(LookAgain, ATangleIsReadOnce) {
 TEST_F(LookAgain, WhereThereIsAPictureTheFieldLooksCloserAndTheMaskIsNotRead) {
   conditions_.of_mask = false;
   EXPECT_EQ(look(true).readings, 3) << "without a picture both";
-  const std::vector<std::uint8_t> picture(
-      3 * static_cast<std::size_t>(frame_.width) * static_cast<std::size_t>(frame_.height), 90);
-  frame_.color_bgr = picture;
+  give_picture();
   EXPECT_EQ(look(true).readings, 2);
   conditions_.paths.strands = path::kMostRereadStrands + 1;
   EXPECT_EQ(look(true).readings, 2) << "of a tangle the mask, for the field does not look closer";
@@ -96,9 +101,7 @@ TEST_F(LookAgain, WhereThereIsAPictureTheFieldLooksCloserAndTheMaskIsNotRead) {
 
 TEST_F(LookAgain, WhereTheFieldCannotLookCloserTheMaskIsReadInItsPlace) {
   conditions_.of_mask = false;
-  const std::vector<std::uint8_t> picture(
-      3 * static_cast<std::size_t>(frame_.width) * static_cast<std::size_t>(frame_.height), 90);
-  frame_.color_bgr = picture;
+  give_picture();
   conditions_.axes = field::Axes{};
   conditions_.axes->magnified_for_px = estimator::kCloser * conditions_.paths.rope_width_px;
   const auto again = look(true);

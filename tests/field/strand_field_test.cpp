@@ -73,7 +73,7 @@ TEST_F(LongThinRope, CannotBeLookedAtMoreCloselyThanItFits) {
   auto network = seeded();
   const auto field = see(frame(), 2, network);
   ASSERT_TRUE(field) << field.error().message;
-  const float before_px = magnified_for_px(*field);
+  const float before_px = field->region.magnified_for_px();
   EXPECT_GT(before_px, 2);
   EXPECT_FALSE(looks_closer(frame(), 1, before_px)) << "the region is as large as it gets";
   EXPECT_FALSE(looks_closer(frame(), before_px, before_px));

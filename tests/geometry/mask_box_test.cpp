@@ -28,14 +28,14 @@ TEST(MaskBox, HoldsEveryPixelAbove127AndNoRowOrColumnWithoutOne) {
       bottom = std::max(bottom, at / kWidth);
     }
     const std::vector<float> depth_m(mask.size(), 1.0F);
-    const MaskBox box = mask_box({kWidth, kHeight, {}, depth_m, mask, {}});
+    const image::Rect box = mask_box({kWidth, kHeight, {}, depth_m, mask, {}});
     if (right < 0) {
       EXPECT_EQ(box.width, 0);
       EXPECT_EQ(box.height, 0);
       continue;
     }
-    EXPECT_EQ(box.left, left);
-    EXPECT_EQ(box.top, top);
+    EXPECT_EQ(box.x, left);
+    EXPECT_EQ(box.y, top);
     EXPECT_EQ(box.width, right - left + 1);
     EXPECT_EQ(box.height, bottom - top + 1);
   }

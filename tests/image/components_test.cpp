@@ -1,6 +1,10 @@
 // Pieces, their numbers, areas and boxes are those of OpenCV.
 #include "image/components.hpp"
 
+#include <cstdint>
+#include <utility>
+#include <vector>
+
 #include "pictures.hpp"
 
 namespace flowdlo::image {
@@ -35,6 +39,22 @@ INSTANTIATE_TEST_SUITE_P(Both, Pieces, testing::Values(Neighbours::kFour, Neighb
 
 TEST(Pieces, OfNothingAreWhatIsEmptyAlone) {
   EXPECT_EQ(components(Mask(), Neighbours::kEight).count(), 1);
+}
+
+TEST(SetPieces, EachPieceGetsItsValue) {
+  Mask mask({9, 6}, 0);
+  for (const auto& [v, u] : {std::pair{1, 1}, {1, 2}, {2, 3}, {4, 6}, {4, 8}}) mask.at(v, u) = 1;
+  const Components own = components(mask, Neighbours::kEight);
+  ASSERT_EQ(own.count(), 4);
+  std::vector<std::uint8_t> values(own.pieces.size());
+  for (std::size_t i = 0; i < values.size(); ++i) values[i] = static_cast<std::uint8_t>(7 * i + 3);
+  Mask set = mask.clone();
+  set_pieces(own.labels, values, set);
+  for (int v = 0; v < mask.height(); ++v) {
+    for (int u = 0; u < mask.width(); ++u) {
+      ASSERT_EQ(set.at(v, u), values[static_cast<std::size_t>(own.labels.at(v, u))]);
+    }
+  }
 }
 
 }  // namespace

@@ -1,6 +1,9 @@
 // Distances have the bits of OpenCV's.
 #include "image/distance.hpp"
 
+#include <algorithm>
+#include <vector>
+
 #include "pictures.hpp"
 
 namespace flowdlo::image {
@@ -25,6 +28,22 @@ TEST(Distance, OfAPartIsThatOfACopy) {
 }
 
 TEST(Distance, OfNothingIsNothing) { EXPECT_TRUE(distance_to_empty(Mask()).empty()); }
+
+TEST(Ridges, AreTheMiddleOfAStroke) {
+  Mask mask({12, 9}, 0);
+  for (int v = 2; v <= 6; ++v) {
+    for (int u = 1; u <= 10; ++u) mask.at(v, u) = 1;
+  }
+  std::vector<float> ridge;
+  for_ridges(distance_to_empty(mask), [&](float d) { ridge.push_back(d); });
+  ASSERT_FALSE(ridge.empty());
+  EXPECT_EQ(*std::max_element(ridge.begin(), ridge.end()), 3);
+  EXPECT_EQ(std::count(ridge.begin(), ridge.end(), 3.0F), 6) << "three pixels from either end on";
+}
+
+TEST(Ridges, OfNothingAreNone) {
+  for_ridges(distance_to_empty(Mask({6, 5}, 0)), [](float) { FAIL(); });
+}
 
 }  // namespace
 }  // namespace flowdlo::image

@@ -1,4 +1,5 @@
 #include "path/strand_reading.hpp"
+#include "geometry/mask_box.hpp"
 
 #include <gtest/gtest.h>
 
@@ -176,7 +177,7 @@ struct LargeFrame {
 
 TEST(StrandReading, OfALargeMaskIsTheFramesAgain) {
   const LargeFrame large;
-  ASSERT_GT(reduction_of(large.canvas.frame(), bounding_box(large.canvas.frame())), 1);
+  ASSERT_GT(reduction_of(large.canvas.frame(), geometry::mask_box(large.canvas.frame())), 1);
   const auto traced = trace_strands(large.canvas.frame(), large.axes);
   ASSERT_TRUE(traced) << traced.error().message;
   EXPECT_NEAR(traced->rope_width_px, LargeFrame::kWidth_px, 4);

@@ -1,4 +1,5 @@
 #include "path/window.hpp"
+#include "geometry/mask_box.hpp"
 
 #include <gtest/gtest.h>
 
@@ -93,7 +94,7 @@ int reduction_for(const cv::Size& size, int width_px, int noise_percent = 0) {
     }
   }
   const Frame frame = canvas.frame();
-  return path::reduction_of(frame, path::bounding_box(frame));
+  return path::reduction_of(frame, geometry::mask_box(frame));
 }
 
 TEST(Reduction, AnImageOfFullHdIsReadAsItIs) {
