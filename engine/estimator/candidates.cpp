@@ -49,22 +49,19 @@ gate::Candidate prior_candidate(const Hypothesis& hypothesis, int index, double 
   const auto& support = hypothesis.prior.support;
   candidate.supported =
       static_cast<float>(std::count(support.begin(), support.end(), std::uint8_t{1})) / kNodes;
-  const Evidence& evidence = hypothesis.evidence;
-  candidate.bridged = evidence.bridged;
-  candidate.longest_gap = evidence.longest_gap;
-  candidate.hidden_ends = evidence.hidden_ends;
-  candidate.buried_ends = evidence.buried_ends;
-  candidate.ring = evidence.ring ? 1 : 0;
+  const Course& course = hypothesis.course;
+  candidate.bridged = course.bridged;
+  candidate.longest_gap = course.longest_gap;
+  candidate.hidden_ends = course.hidden_ends;
+  candidate.buried_ends = course.buried_ends;
+  candidate.ring = course.ring ? 1 : 0;
   return candidate;
 }
 
 /// What a candidate of that hypothesis looks like beside the frame.
-void measure(const Hypothesis& hypothesis, const SecondLook& look, float rope_width_px,
-             const Frame& frame, double rope_length_m, gate::TubeView& view,
-             gate::Candidate& candidate) {
-  const bool drawn = candidate.draw < 0 && hypothesis.drawn_px == rope_width_px;
-  candidate.tube =
-      drawn ? hypothesis.evidence.tube : view.score(candidate.nodes, candidate.radius_m);
+void measure(const Hypothesis& hypothesis, const SecondLook& look, const Frame& frame,
+             double rope_length_m, gate::TubeView& view, gate::Candidate& candidate) {
+  candidate.tube = view.score(candidate.nodes, candidate.radius_m);
   candidate.pixel_m = gate::pixel_m(candidate.nodes, frame.intrinsics);
   candidate.noise_m = view.noise_m();
   candidate.unseen_m = unseen_m(candidate.nodes, hypothesis.prior.support);
@@ -87,7 +84,7 @@ std::vector<gate::Candidate> list_candidates(const SecondLook& look, float rope_
   std::vector<gate::Candidate> candidates;
   const auto add = [&](gate::Candidate& candidate) {
     const auto h = static_cast<std::size_t>(candidate.hypothesis);
-    measure(hypotheses[h], look, rope_width_px, frame, rope_length_m, view, candidate);
+    measure(hypotheses[h], look, frame, rope_length_m, view, candidate);
     candidates.push_back(candidate);
   };
   for (std::size_t h = 0; h < hypotheses.size(); ++h) {
@@ -115,7 +112,7 @@ gate::Candidate guest_of(const Hypothesis& hypothesis,
                                    look.hypotheses.front().score);
   candidate.radius_m = view.radius_m(candidate.nodes);
   candidate.readings = look.readings;
-  measure(hypothesis, look, rope_width_px, frame, rope_length_m, view, candidate);
+  measure(hypothesis, look, frame, rope_length_m, view, candidate);
   return candidate;
 }
 

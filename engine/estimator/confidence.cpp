@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "estimator/hypotheses.hpp"
 #include "geometry/camera.hpp"
 #include "geometry/polyline.hpp"
 
@@ -10,11 +11,11 @@ namespace flowdlo::estimator {
 namespace {
 
 // In the order of `confidence_features`. Fitted on synthetic scenes by
-// `flowdlo-lab scenes fit --scenes 150 --wide 1000`; the first, 2.010 there, is lowered so that
-// nine in ten wrong winners of drawn scenes stay below a half.
+// `flowdlo-lab scenes fit --scenes 150 --wide 1000`; the first, 1.136 there, is lowered by 0.35:
+// it errs towards doubt.
 constexpr std::array<double, kConfidenceFeatures> kConfidenceWeights{
-    1.660, 1.491,  -3.296, 0.000,  -2.255, -0.687, -2.525, -0.156,
-    0.000, -4.301, -1.436, -1.144, -4.363, -2.346, -2.539, 0.000};
+    0.786, 2.036,  -3.839, 0.000,  -1.111, -1.407, -1.035, -0.379,
+    0.000, -3.111, -1.330, -0.572, -2.900, -2.430, -4.093, 0.000};
 constexpr double kRingConfidence = 0.2;  // no fit tells it: rings are rare, their ends unknown
 
 /// Root mean square distance of the finite draws to their mean, a node.
@@ -41,18 +42,19 @@ std::array<float, kNodes> spread(const std::vector<Centerline>& draws) {
   return deviation;
 }
 
-bool known(const Evidence& evidence) {
-  const gate::TubeScore& tube = evidence.tube;
+bool known(const gate::Candidate& prior) {
+  const gate::TubeScore& tube = prior.tube;
   return std::isfinite(tube.mask_recall + tube.mask_precision + tube.depth_agreement +
                        tube.crossing_agreement + tube.least_sine + tube.bending +
-                       tube.sharpest_bend + evidence.longest_gap + evidence.hidden_ends +
-                       evidence.buried_ends);
+                       tube.sharpest_bend + prior.longest_gap + prior.hidden_ends +
+                       prior.buried_ends);
 }
 
 }  // namespace
 
-std::array<double, kConfidenceFeatures> confidence_features(const Evidence& evidence, double lead) {
-  const gate::TubeScore& tube = evidence.tube;
+std::array<double, kConfidenceFeatures> confidence_features(const gate::Candidate& prior,
+                                                            double lead) {
+  const gate::TubeScore& tube = prior.tube;
   const auto missing = [](float share, double most) {
     return std::min(1.0, (1 - static_cast<double>(share)) / most);
   };
@@ -69,21 +71,21 @@ std::array<double, kConfidenceFeatures> confidence_features(const Evidence& evid
           missing(tube.least_sine, 1) * missing(tube.least_sine, 1),
           some(tube.bending, 5),
           some(tube.sharpest_bend, 1),
-          some(evidence.longest_gap, 15),
-          static_cast<double>(evidence.hidden_ends),
-          static_cast<double>(evidence.buried_ends),
-          missing(evidence.supported, 0.5),
+          some(prior.longest_gap, 15),
+          static_cast<double>(prior.hidden_ends),
+          static_cast<double>(prior.buried_ends),
+          missing(prior.supported, 0.5),
           some(tube.overlap_share, 0.5),
           some(tube.hidden_share, 0.3)};
 }
 
-float confidence(const Evidence& evidence, double lead) {
-  if (!known(evidence) || !std::isfinite(lead)) return 0;
-  const auto features = confidence_features(evidence, lead);
+float confidence(const gate::Candidate& prior, double lead) {
+  if (!known(prior) || !std::isfinite(lead)) return 0;
+  const auto features = confidence_features(prior, lead);
   double logit = 0;
   for (std::size_t i = 0; i < features.size(); ++i) logit += kConfidenceWeights[i] * features[i];
   const double share = 1 / (1 + std::exp(-logit));
-  return static_cast<float>(evidence.ring ? kRingConfidence * share : share);
+  return static_cast<float>(prior.ring > 0 ? kRingConfidence * share : share);
 }
 
 std::array<float, kNodes> node_sigma(Source source, int draw, const flow::Prediction& prediction,

@@ -1,16 +1,17 @@
 #include "estimator/hypotheses.hpp"
 
 #include <algorithm>
-#include <limits>
+#include <cmath>
 #include <optional>
 #include <utility>
 
-#include "gate/tube_score.hpp"
 #include "prior/refined_prior.hpp"
 
 namespace flowdlo::estimator {
 
 namespace {
+
+constexpr double kMarginScore = 3.0;  // the lead that leaves a third of the doubt
 
 float width_px(const path::Traversals& paths, std::size_t i) {
   return paths.ranked[i].width_px > 0 ? paths.ranked[i].width_px : paths.rope_width_px;
@@ -58,24 +59,29 @@ Refined refined_beforehand(const path::Traversals& paths, const Frame& frame, th
   return refined;
 }
 
-/// What hypotheses of each width are compared with.
-class Views {
- public:
-  explicit Views(const Frame& frame) : frame_(frame) {}
-
-  gate::TubeView& of(float width_px) {
-    for (auto& [width, view] : views_) {
-      if (width == width_px) return view;
-    }
-    return views_.emplace_back(width_px, gate::TubeView(frame_, width_px)).second;
-  }
-
- private:
-  const Frame& frame_;
-  std::vector<std::pair<float, gate::TubeView>> views_;
-};
-
 }  // namespace
+
+Course course_of(const path::Path& path, float rope_width_px) {
+  const float width_px = std::max(1.0F, rope_width_px);
+  float length_px = 0;
+  float bridged_px = 0;
+  float gap_px = 0;
+  float longest_px = 0;
+  for (std::size_t i = 1; i < path.points_px.size(); ++i) {
+    const float step = (path.points_px[i] - path.points_px[i - 1]).norm();
+    const bool bridged = path.bridged[i] != 0 || path.bridged[i - 1] != 0;
+    length_px += step;
+    gap_px = bridged ? gap_px + step : 0;
+    bridged_px += bridged ? step : 0;
+    longest_px = std::max(longest_px, gap_px);
+  }
+  return {.bridged = length_px > 0 ? std::min(1.0F, bridged_px / length_px) : 1,
+          .longest_gap = std::min(99.0F, longest_px / width_px),
+          .hidden_ends = path.hidden_ends,
+          .buried_ends = path.buried_ends,
+          .ring = path.ring,
+          .closed = path.closed};
+}
 
 Result<std::vector<Hypothesis>> lift_all(const path::Traversals& paths,
                                          const evidence::Cloud& cloud,
@@ -84,40 +90,35 @@ Result<std::vector<Hypothesis>> lift_all(const path::Traversals& paths,
   const auto refine = [&](std::size_t i) {
     return prior::refine(paths.ranked[i], width_px(paths, i), cloud, visible, frame);
   };
-  Refined known = refined_beforehand(paths, frame, pool, refine);
-  Views views(frame);
+  const bool thesis = kind == weights::PriorKind::kThesis;
+  Refined known = refined_beforehand(paths, frame, thesis ? nullptr : pool, refine);
   Lengths lengths(frame);
   std::vector<Hypothesis> hypotheses;
-  double best = -std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < paths.ranked.size(); ++i) {
     const path::Path& path = paths.ranked[i];
-    if (out_of_reach(paths, i) || path.score < best - kSlack || !lengths.allow(paths, i)) continue;
-    const auto refined = known[i] ? *std::move(known[i]) : refine(i);
-    const bool thesis = kind == weights::PriorKind::kThesis;
-    auto lifted = thesis ? prior::lift(path, visible, frame) : refined;  // Eq. (3.1)-(3.7)
+    if (out_of_reach(paths, i) || !lengths.allow(paths, i)) continue;
+    auto lifted = thesis     ? prior::lift(path, visible, frame)  // Eq. (3.1)-(3.7)
+                  : known[i] ? *std::move(known[i])
+                             : refine(i);
     if (!lifted) {
       if (hypotheses.empty()) return lifted.error();
       continue;
     }
-    const float drawn_px = width_px(paths, i);
-    const Evidence evidence =
-        judge(path, drawn_px, refined ? &*refined : nullptr, views.of(drawn_px));
     hypotheses.push_back({.prior = *std::move(lifted),
                           .path = i,
-                          .path_score = path.score,
-                          .score = rescored(path.score, evidence),
-                          .evidence = evidence,
-                          .drawn_px = thesis ? 0 : drawn_px});
-    best = std::max(best, hypotheses.back().score);
+                          .score = path.score,
+                          .course = course_of(path, width_px(paths, i))});
   }
-  std::stable_sort(hypotheses.begin(), hypotheses.end(),
-                   [](const Hypothesis& a, const Hypothesis& b) { return a.score > b.score; });
   return hypotheses;
 }
 
 double lead(const std::vector<Hypothesis>& hypotheses) {
   if (hypotheses.size() < 2) return kReach;
   return std::clamp(hypotheses[0].score - hypotheses[1].score, 0.0, kReach);
+}
+
+float margin(double lead) {
+  return static_cast<float>(1 - std::exp(-std::max(0.0, lead) / kMarginScore));
 }
 
 std::vector<int> assign_draws(int hypotheses, float margin, int draws) {

@@ -1,11 +1,9 @@
-// Hypotheses: the traversals of the mask lifted to 3D, in the order in which they explain the
-// frame, and which draw is conditioned on which.
+// Hypotheses: the traversals of a reading lifted to 3D, and which draw is conditioned on which.
 #pragma once
 
 #include <cstddef>
 #include <vector>
 
-#include "estimator/ranking.hpp"
 #include "evidence/visible_points.hpp"
 #include "flowdlo/frame.hpp"
 #include "flowdlo/result.hpp"
@@ -16,25 +14,34 @@
 
 namespace flowdlo::estimator {
 
-/// A traversal, its prior, and how well it explains the frame.
-struct Hypothesis {
-  prior::Prior prior;     ///< of the kind asked for
-  std::size_t path = 0;   ///< index in path::Traversals::ranked of its reading
-  double path_score = 0;  ///< path::Path::score
-  double score = 0;       ///< after comparing with mask and depth, `rescored`
-  Evidence evidence;      ///< of the refined prior, whatever kind `prior` is
-  float drawn_px = 0;     ///< the rope's width in evidence.tube where that is of `prior`; else 0
-  int reading = 0;        ///< of the mask that brought it forth; 0: as given
-  float votes = 0;        ///< [0, 1] share of the readings whose best runs here
-  float odds = 0;         ///< [0, 1] mean over the readings of how likely each says it is
-  float seen_odds = 0;    ///< [0, 1] how likely the closest look through the field says it is
+/// What a traversal's path is like.
+struct Course {
+  float bridged = 0;      ///< [0, 1] share of it on links over gaps
+  float longest_gap = 0;  ///< [0, 99] in rope widths
+  float hidden_ends = 0;  ///< [0, 1] half for each tip where an occluder begins
+  float buried_ends = 0;  ///< [0, 1] half for each end on another strand
+  bool ring = false;      ///< closed: its ends are a guess
+  bool closed = false;    ///< and nothing shows any
 };
 
-/// Best `score` first, ties in the order of `paths`; never empty. Fails as the lift of the best
-/// traversal does; runners-up that cannot be lifted are left out, and so are those whose path
-/// score is so low (kReach, kSlack) that no comparison would bring them near the front, and those
-/// beyond the second that would make all of them longer than kMostLiftedSides. `pool`: whose
-/// threads lift beside the caller's; null: none. The hypotheses are the same.
+[[nodiscard]] Course course_of(const path::Path& path, float rope_width_px);
+
+/// A traversal and its prior.
+struct Hypothesis {
+  prior::Prior prior;    ///< of the kind asked for
+  std::size_t path = 0;  ///< index in path::Traversals::ranked of its reading
+  double score = 0;      ///< path::Path::score; higher is better
+  Course course;
+  int reading = 0;      ///< of the frame that brought it forth; 0: the first
+  float votes = 0;      ///< [0, 1] share of the readings whose best runs here
+  float odds = 0;       ///< [0, 1] mean over the readings of how likely each says it is
+  float seen_odds = 0;  ///< [0, 1] how likely the closest look through the field says it is
+};
+
+/// In the order of `paths`, best first; never empty. Fails as the lift of the best traversal does;
+/// runners-up that cannot be lifted are left out, and so are those that trail by more than kReach,
+/// and those beyond the second that would make all of them longer than kMostLiftedSides. `pool`:
+/// whose threads lift beside the caller's; null: none. The hypotheses are the same.
 [[nodiscard]] Result<std::vector<Hypothesis>> lift_all(const path::Traversals& paths,
                                                        const evidence::Cloud& cloud,
                                                        const evidence::VisiblePoints& visible,
@@ -44,6 +51,9 @@ struct Hypothesis {
 /// How far the first hypothesis leads the second, in units of path::Path::score; `kReach` when it
 /// is alone.
 [[nodiscard]] double lead(const std::vector<Hypothesis>& hypotheses);
+
+/// In [0, 1]: how clear a lead of that much score is.
+[[nodiscard]] float margin(double lead);
 
 /// [draws] index of the hypothesis each draw is conditioned on. A clear winner takes all draws.
 /// Below kDoubt of `margin` runners-up get one draw each, from the last draw backwards, and the
@@ -59,7 +69,6 @@ struct Hypothesis {
 inline constexpr int kMostLiftedSides = 8;
 
 inline constexpr float kDoubt = 0.5F;  ///< margin below which runners-up are worth a draw
-inline constexpr double kReach = 6;    ///< path score by which a runner-up may trail the first
-inline constexpr double kSlack = 1;    ///< and by which it may miss the best score so far
+inline constexpr double kReach = 6;  ///< path score by which a runner-up may trail the first
 
 }  // namespace flowdlo::estimator

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "estimator/candidates.hpp"
-#include "estimator/confidence.hpp"
 #include "estimator/refinement.hpp"
 #include "gate/one_rope.hpp"
 #include "geometry/polyline.hpp"
@@ -46,8 +45,10 @@ void own_to_guesses(const std::array<float, 2>& beyond_m, float radius_m, Judged
 Judge::Chosen Judge::choose(SecondLook look, const Sampled& sampled) const {
   Chosen chosen{.look = std::move(look)};
   if (fitted_ == nullptr) {
-    chosen.returned =
-        by_thesis(chosen.look.hypotheses, sampled.prediction, sampled.verdict, sampled.assigned);
+    const auto priors = list_candidates(chosen.look, conditions_.paths.rope_width_px, {}, {}, {},
+                                        frame_, rope_length_m_);
+    chosen.returned = by_thesis(chosen.look.hypotheses, priors, sampled.prediction, sampled.verdict,
+                                sampled.assigned);
     return chosen;
   }
   chosen.candidates =
@@ -85,14 +86,13 @@ Result<Judged> Judge::settle(Chosen chosen, const Sampled& sampled) const {
 }
 
 Result<std::optional<Judged>> Judge::of_first(bool traced) const {
-  const auto& first = conditions_.hypotheses;
-  const bool clear = traced && confidence(first.front().evidence, lead(first)) >= kClear;
-  if (fitted_ == nullptr || !(clear || conditions_.axes)) return std::optional<Judged>();
+  if (fitted_ == nullptr || !(traced || conditions_.axes)) return std::optional<Judged>();
+  const float sure = traced ? kClear : kSure;
   Chosen chosen = choose(first_look(conditions_, frame_), {});
-  if (!clear && chosen.returned.confidence < kSure) return std::optional<Judged>();
+  if (chosen.returned.confidence < sure) return std::optional<Judged>();
   auto judged = settle(std::move(chosen), {});
   if (!judged) return judged.error();
-  if (!clear && judged->confidence < kSure) return std::optional<Judged>();
+  if (judged->confidence < sure) return std::optional<Judged>();
   return std::optional(*std::move(judged));
 }
 
@@ -110,7 +110,7 @@ Estimate conclude(Judged judged, std::vector<DrawReport> draws, const gate::Dila
   estimate.draw = returned.draw;
   estimate.nodes = judged.nodes;
   estimate.support = judged.support;
-  estimate.closed = hypotheses[returned.hypothesis].evidence.closed;
+  estimate.closed = hypotheses[returned.hypothesis].course.closed;
   estimate.sigma_m = returned.sigma_m;
   estimate.mask_agreement = mask.agreement(estimate.nodes, frame.intrinsics);
   estimate.prior_mask_agreement = mask.agreement(hypotheses.front().prior.nodes, frame.intrinsics);

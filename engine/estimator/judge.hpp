@@ -26,7 +26,7 @@ namespace flowdlo::estimator {
 /// mean; with all readings 0.229 (docs/accuracy.md).
 inline constexpr float kSure = 0.95F;
 
-/// The same of paths that were known already: of `confidence` of the best hypothesis.
+/// The same of paths that were known already.
 inline constexpr float kClear = 0.7F;
 
 /// What the model made of a frame; nothing where it was not asked.

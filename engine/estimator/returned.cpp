@@ -13,10 +13,11 @@ namespace {
 
 /// The probability that the hypothesis the estimate follows is right. A runner-up's can only come
 /// out of what the best one's leaves.
-float confidence_of(const std::vector<Hypothesis>& hypotheses, std::size_t used) {
-  const float of_best = confidence(hypotheses.front().evidence, lead(hypotheses));
+float confidence_of(const std::vector<Hypothesis>& hypotheses,
+                    const std::vector<gate::Candidate>& priors, std::size_t used) {
+  const float of_best = confidence(priors.front(), lead(hypotheses));
   if (used == 0) return of_best;
-  return std::min(1 - of_best, confidence(hypotheses[used].evidence, 0));
+  return std::min(1 - of_best, confidence(priors[used], 0));
 }
 
 /// Of what is no frame before.
@@ -35,7 +36,8 @@ std::vector<gate::Candidate> as_returned(std::vector<gate::Candidate> candidates
 
 }  // namespace
 
-Returned by_thesis(const std::vector<Hypothesis>& hypotheses, const flow::Prediction& prediction,
+Returned by_thesis(const std::vector<Hypothesis>& hypotheses,
+                   const std::vector<gate::Candidate>& priors, const flow::Prediction& prediction,
                    const gate::Verdict& verdict, const std::vector<int>& assigned) {
   Returned returned;
   returned.draw = verdict.draw;
@@ -44,7 +46,7 @@ Returned by_thesis(const std::vector<Hypothesis>& hypotheses, const flow::Predic
     returned.hypothesis = static_cast<std::size_t>(hypothesis);
   }
   returned.origin = origin_of(returned, hypotheses);
-  returned.confidence = confidence_of(hypotheses, returned.hypothesis);
+  returned.confidence = confidence_of(hypotheses, priors, returned.hypothesis);
   returned.sigma_m =
       node_sigma(verdict.source, verdict.draw, prediction, hypotheses[returned.hypothesis].prior);
   return returned;

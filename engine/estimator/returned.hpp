@@ -27,8 +27,10 @@ struct Returned {
   bool switched = false;  ///< by a hint it is another hypothesis than without one
 };
 
-/// Eq. (3.33). `assigned` is [D], the hypothesis that each draw was conditioned on.
+/// Eq. (3.33). `priors`: `list_candidates` without draws; `assigned` is [D], the hypothesis that
+/// each draw was conditioned on.
 [[nodiscard]] Returned by_thesis(const std::vector<Hypothesis>& hypotheses,
+                                 const std::vector<gate::Candidate>& priors,
                                  const flow::Prediction& prediction, const gate::Verdict& verdict,
                                  const std::vector<int>& assigned);
 

@@ -82,23 +82,21 @@ std::optional<Hypothesis> stayed(const std::optional<Centerline>& previous,
   if (!path) return std::nullopt;
   const Hypothesis* like = same_way(*previous, known);
   if (like != nullptr) {
-    path->score = like->path_score;
-    path->ring = like->evidence.ring;
-    path->hidden_ends = like->evidence.hidden_ends;
-    path->buried_ends = like->evidence.buried_ends;
+    path->score = like->score;
+    path->ring = like->course.ring;
+    path->hidden_ends = like->course.hidden_ends;
+    path->buried_ends = like->course.buried_ends;
   } else {
-    for (const Hypothesis& other : known) path->score = std::min(path->score, other.path_score);
+    for (const Hypothesis& other : known) path->score = std::min(path->score, other.score);
   }
   const float width_px = conditions.paths.rope_width_px;
   auto lifted = prior::refine(*path, width_px, conditions.cloud, conditions.visible, frame);
   if (!lifted) return std::nullopt;
   lifted->nodes = turned_to(lifted->nodes, *previous);
-  gate::TubeView view(frame, width_px);
   Hypothesis hypothesis;
-  hypothesis.evidence = judge(*path, width_px, &*lifted, view);
   hypothesis.prior = *std::move(lifted);
-  hypothesis.path_score = path->score;
-  hypothesis.score = rescored(path->score, hypothesis.evidence);
+  hypothesis.score = path->score;
+  hypothesis.course = course_of(*path, width_px);
   hypothesis.reading = like != nullptr ? like->reading : 1;
   hypothesis.votes = like != nullptr ? like->votes : 0;
   hypothesis.odds = like != nullptr ? like->odds : 0;

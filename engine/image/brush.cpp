@@ -3,7 +3,6 @@
 #include "image/brush.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 #include <vector>
 
@@ -11,6 +10,8 @@ namespace flowdlo::image {
 namespace {
 
 using Bytes = std::vector<std::uint8_t>;
+
+constexpr std::uint8_t kNothing = 0;
 
 struct Least {
   static std::uint8_t of(std::uint8_t a, std::uint8_t b) { return a < b ? a : b; }
@@ -29,9 +30,9 @@ void take_in(const std::uint8_t* __restrict other, std::uint8_t* __restrict to, 
   for (int i = 0; i < count; ++i) to[i] = Take::of(to[i], other[i]);
 }
 
-// Along rows: `outside` lies beside them.
+// Along rows: nothing lies beside them.
 template <class Take>
-Mask along_rows(const Image<const std::uint8_t>& mask, int half, std::uint8_t outside) {
+Mask along_rows(const Image<const std::uint8_t>& mask, int half) {
   if (half == 0) return mask.clone();
   const int n = 2 * half + 1;
   const int width = mask.width();
@@ -40,9 +41,9 @@ Mask along_rows(const Image<const std::uint8_t>& mask, int half, std::uint8_t ou
   Bytes line(whole);
   Bytes other(whole);
   for (int v = 0; v < mask.height(); ++v) {
-    std::fill_n(line.begin(), half, outside);
+    std::fill_n(line.begin(), half, kNothing);
     std::copy_n(mask.row(v), width, line.begin() + half);
-    std::fill(line.begin() + half + width, line.end(), outside);
+    std::fill(line.begin() + half + width, line.end(), kNothing);
     int length = static_cast<int>(whole);  // bytes that hold what is taken of `have`
     int have = 1;
     for (; 2 * have < n; have *= 2) {
@@ -55,9 +56,9 @@ Mask along_rows(const Image<const std::uint8_t>& mask, int half, std::uint8_t ou
   return result;
 }
 
-// Down columns: `outside` lies above and below them.
+// Down columns: nothing lies above and below them.
 template <class Take>
-Mask along_columns(const Mask& mask, int half, std::uint8_t outside) {
+Mask along_columns(const Mask& mask, int half) {
   if (half == 0) return mask;
   const int n = 2 * half + 1;
   const int width = mask.width();
@@ -65,7 +66,7 @@ Mask along_columns(const Mask& mask, int half, std::uint8_t outside) {
   for (int v = 0; v < tall.height(); ++v) {
     const int from = v - half;
     if (from < 0 || from >= mask.height()) {
-      std::fill_n(tall.row(v), width, outside);
+      std::fill_n(tall.row(v), width, kNothing);
     } else {
       std::copy_n(mask.row(from), width, tall.row(v));
     }
@@ -80,40 +81,14 @@ Mask along_columns(const Mask& mask, int half, std::uint8_t outside) {
   return tall.part(all_of(mask.size()));
 }
 
-// How far a disc reaches to each side, `dy` rows from its middle.
-int reach_of(int radius, int dy) {
-  const auto square = static_cast<double>(radius) * radius;
-  const double share = (square - static_cast<double>(dy) * dy) * (1 / square);
-  return static_cast<int>(std::lrint(radius * std::sqrt(share)));
-}
-
 }  // namespace
 
 Mask eroded(const Image<const std::uint8_t>& mask, int half) {
-  return along_columns<Least>(along_rows<Least>(mask, half, 0), half, 0);
+  return along_columns<Least>(along_rows<Least>(mask, half), half);
 }
 
 Mask dilated(const Image<const std::uint8_t>& mask, int half) {
-  return along_columns<Largest>(along_rows<Largest>(mask, half, 0), half, 0);
-}
-
-Mask eroded_by_disc(const Image<const std::uint8_t>& mask, int radius) {
-  Mask result = mask.clone();
-  if (radius < 1) return result;
-  Mask narrowed;
-  int reach = -1;
-  for (int dy = 0; dy <= radius; ++dy) {
-    const int now = reach_of(radius, dy);
-    if (now != reach) narrowed = along_rows<Least>(mask, now, 255);
-    reach = now;
-    for (int v = 0; v < mask.height(); ++v) {
-      for (const int other : {v - dy, v + dy}) {
-        if (other < 0 || other >= mask.height()) continue;
-        take_in<Least>(narrowed.row(other), result.row(v), mask.width());
-      }
-    }
-  }
-  return result;
+  return along_columns<Largest>(along_rows<Largest>(mask, half), half);
 }
 
 }  // namespace flowdlo::image

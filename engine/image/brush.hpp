@@ -1,4 +1,4 @@
-// Brush: erosion and dilation of masks by squares and discs of any size.
+// Brush: erosion and dilation of masks by squares of any size.
 #pragma once
 
 #include "image/image.hpp"
@@ -12,9 +12,5 @@ namespace flowdlo::image {
 
 /// The pixels around which any of that square is set: the largest of its values.
 [[nodiscard]] Mask dilated(const Image<const std::uint8_t>& mask, int half);
-
-/// The pixels around which a disc of that radius is all set; what lies outside of the image does
-/// not count.
-[[nodiscard]] Mask eroded_by_disc(const Image<const std::uint8_t>& mask, int radius);
 
 }  // namespace flowdlo::image

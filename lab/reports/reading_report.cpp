@@ -15,7 +15,6 @@
 #include "command/report_commands.hpp"
 #include "command_line.hpp"
 #include "estimator/conditions.hpp"
-#include "estimator/confidence.hpp"
 #include "estimator/judge.hpp"
 #include "estimator/second_look.hpp"
 #include "eval/metrics.hpp"
@@ -46,7 +45,6 @@ struct Options {
 struct Outcome {
   std::uint64_t index = 0;
   std::string scenario;
-  bool clear = false;
   double mask_cm = 0;      // best hypothesis of the mask
   double field_cm = 0;     // of the field
   double closer_cm = 0;    // of a closer look through it
@@ -140,8 +138,6 @@ Result<Outcome> measure(const Options& options, std::uint64_t index, field::Netw
   if (!conditions) return conditions.error();
   outcome.mask_ms = ms_since(begin);
   const auto& of_mask = conditions->hypotheses;
-  outcome.clear = estimator::confidence(of_mask.front().evidence, estimator::lead(of_mask)) >=
-                  estimator::kClear;
   begin = std::chrono::steady_clock::now();
   const auto glance = path::glance(frame);
   if (!glance) return glance.error();
@@ -189,8 +185,7 @@ void report(const std::vector<Outcome>& outcomes, const Options& options) {
   for (const Outcome& o : outcomes) {
     const std::array<double, 6> errors_cm{o.mask_cm,   o.field_cm,    o.closer_cm,
                                           o.scored_cm, o.of_field_cm, o.best_cm};
-    for (const std::string& name :
-         {std::string(" all"), std::string(o.clear ? " clear" : " doubtful"), o.scenario}) {
+    for (const std::string& name : {std::string(" all"), o.scenario}) {
       auto& row = rows[name];
       for (std::size_t i = 0; i < row.size(); ++i) row[i].add(std::min(errors_cm[i], kMost_cm));
     }

@@ -12,26 +12,25 @@ namespace flowdlo {
 namespace {
 
 using estimator::confidence;
-using estimator::Evidence;
+using gate::Candidate;
 
 /// A rope without crossings that explains mask and depth.
-Evidence clear_case() {
-  Evidence evidence;
-  evidence.tube = {.mask_recall = 1,
-                   .mask_precision = 1,
-                   .hidden_share = 0,
-                   .depth_agreement = 1,
-                   .depth_bias = 0,
-                   .crossing_agreement = 1,
-                   .overlap_share = 0,
-                   .crossings = 0,
-                   .least_sine = 1,
-                   .least_clearance = 1,
-                   .bending = 0.5F,
-                   .sharpest_bend = 0.1F};
-  evidence.supported = 1;
-  evidence.length_widths = 80;
-  return evidence;
+Candidate clear_case() {
+  Candidate prior;
+  prior.tube = {.mask_recall = 1,
+                .mask_precision = 1,
+                .hidden_share = 0,
+                .depth_agreement = 1,
+                .depth_bias = 0,
+                .crossing_agreement = 1,
+                .overlap_share = 0,
+                .crossings = 0,
+                .least_sine = 1,
+                .least_clearance = 1,
+                .bending = 0.5F,
+                .sharpest_bend = 0.1F};
+  prior.supported = 1;
+  return prior;
 }
 
 constexpr double kAlone = estimator::kReach;
@@ -41,17 +40,17 @@ TEST(Confidence, IsHighWhenNothingSpeaksAgainstTheTraversal) {
 }
 
 TEST(Confidence, IsLowWhereATubeLeavesALoopOfTheMaskUnexplained) {
-  Evidence evidence = clear_case();
-  evidence.tube.mask_recall = 0.8F;
-  EXPECT_LT(confidence(evidence, kAlone), 0.5F);
+  Candidate prior = clear_case();
+  prior.tube.mask_recall = 0.8F;
+  EXPECT_LT(confidence(prior, kAlone), 0.5F);
 }
 
 TEST(Confidence, FallsWithEachThingThatSpeaksAgainstTheTraversal) {
-  Evidence start = clear_case();
+  Candidate start = clear_case();
   start.tube.mask_recall = 0.97F;  // where the curve is steep
   start.tube.mask_precision = 0.97F;
   const float before = confidence(start, 3);
-  std::vector<Evidence> worse(10, start);
+  std::vector<Candidate> worse(10, start);
   worse[0].tube.mask_recall = 0.9F;
   worse[1].tube.mask_precision = 0.9F;
   worse[2].tube.depth_agreement = 0.9F;
@@ -67,26 +66,26 @@ TEST(Confidence, FallsWithEachThingThatSpeaksAgainstTheTraversal) {
 }
 
 TEST(Confidence, FallsWhereDepthsDisagree) {
-  Evidence evidence = clear_case();
-  evidence.tube.depth_agreement = 0.8F;
-  evidence.tube.crossing_agreement = 0.5F;
-  EXPECT_LT(confidence(evidence, kAlone), confidence(clear_case(), kAlone));
+  Candidate prior = clear_case();
+  prior.tube.depth_agreement = 0.8F;
+  prior.tube.crossing_agreement = 0.5F;
+  EXPECT_LT(confidence(prior, kAlone), confidence(clear_case(), kAlone));
 }
 
 TEST(Confidence, OfAClosedRingIsLowHoweverWellItFits) {
-  Evidence evidence = clear_case();
-  evidence.ring = true;
-  EXPECT_LT(confidence(evidence, kAlone), 0.3F);
+  Candidate prior = clear_case();
+  prior.ring = 1;
+  EXPECT_LT(confidence(prior, kAlone), 0.3F);
 }
 
 TEST(Confidence, OfATraversalThatCouldNotBeDrawnIsNearZero) {
-  EXPECT_LT(confidence(Evidence{}, 1), 0.05F);
+  EXPECT_LT(confidence(Candidate{}, 1), 0.05F);
 }
 
 TEST(Confidence, IsZeroForWhatIsNotANumber) {
-  Evidence evidence = clear_case();
-  evidence.tube.bending = std::numeric_limits<float>::quiet_NaN();
-  EXPECT_EQ(confidence(evidence, kAlone), 0);
+  Candidate prior = clear_case();
+  prior.tube.bending = std::numeric_limits<float>::quiet_NaN();
+  EXPECT_EQ(confidence(prior, kAlone), 0);
   EXPECT_EQ(confidence(clear_case(), std::nan("")), 0);
 }
 

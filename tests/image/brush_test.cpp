@@ -34,18 +34,6 @@ TEST_P(Brush, DilatesBySquares) {
   }
 }
 
-TEST_P(Brush, ErodesByDiscsAndTakesNoNoticeOfTheOutside) {
-  const cv::Size size(2 * half() + 1, 2 * half() + 1);
-  const cv::Mat disc = cv::getStructuringElement(cv::MORPH_ELLIPSE, size);
-  for (std::uint64_t number = 0; number < 35; ++number) {
-    const cv::Mat mask = 255 * some_mask(number);
-    cv::Mat expected;
-    cv::erode(mask, expected, disc);
-    const Mask own = eroded_by_disc(mat::image_of<std::uint8_t>(mask), half());
-    ASSERT_TRUE(same_bits(mat::mat_over(own), expected)) << number;
-  }
-}
-
 INSTANTIATE_TEST_SUITE_P(Sizes, Brush, testing::Values(0, 1, 2, 3, 4, 7, 8, 15, 16, 17, 40));
 
 TEST(Brush, LeavesTheMaskThatItIsGiven) {
