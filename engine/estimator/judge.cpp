@@ -87,12 +87,12 @@ Result<Judged> Judge::settle(Chosen chosen, const Sampled& sampled) const {
 
 Result<std::optional<Judged>> Judge::of_first(bool traced) const {
   if (fitted_ == nullptr || !(traced || conditions_.axes)) return std::optional<Judged>();
-  const float sure = traced ? kClear : kSure;
+  const float least = traced ? 0 : kSure;
   Chosen chosen = choose(first_look(conditions_, frame_), {});
-  if (chosen.returned.confidence < sure) return std::optional<Judged>();
+  if (chosen.returned.confidence < least) return std::optional<Judged>();
   auto judged = settle(std::move(chosen), {});
   if (!judged) return judged.error();
-  if (judged->confidence < sure) return std::optional<Judged>();
+  if (judged->confidence < least) return std::optional<Judged>();
   return std::optional(*std::move(judged));
 }
 

@@ -26,9 +26,6 @@ namespace flowdlo::estimator {
 /// mean; with all readings 0.229 (docs/accuracy.md).
 inline constexpr float kSure = 0.95F;
 
-/// The same of paths that were known already.
-inline constexpr float kClear = 0.7F;
-
 /// What the model made of a frame; nothing where it was not asked.
 struct Sampled {
   flow::Prediction prediction{};
@@ -62,8 +59,9 @@ class Judge {
         refine_(refine) {}
 
   /// Of the first reading alone; nothing where it says nothing sure. A mask's is never sure: where
-  /// strands are merged it has no doubt. `traced`: its paths were known already. Fails as the
-  /// refining network does.
+  /// strands are merged it has no doubt. `traced`: its paths were known already; what told ropes
+  /// apart has weighed all of them, and a rope alone is not read again. Fails as the refining
+  /// network does.
   [[nodiscard]] Result<std::optional<Judged>> of_first(bool traced) const;
 
   /// Of all that is known. Fails likewise.
