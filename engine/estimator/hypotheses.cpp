@@ -13,50 +13,23 @@ namespace {
 
 constexpr double kMarginScore = 3.0;  // the lead that leaves a third of the doubt
 
-float width_px(const path::Traversals& paths, std::size_t i) {
-  return paths.ranked[i].width_px > 0 ? paths.ranked[i].width_px : paths.rope_width_px;
+float width_px(const path::Traversals& paths, const path::Path& path) {
+  return path.width_px > 0 ? path.width_px : paths.rope_width_px;
 }
 
-bool out_of_reach(const path::Traversals& paths, std::size_t i) {
-  return paths.ranked[i].score < paths.ranked.front().score - kReach;
-}
-
-/// Counts what is lifted against kMostLiftedSides; path points lie a pixel apart.
-class Lengths {
- public:
-  explicit Lengths(const Frame& frame)
-      : most_px_(static_cast<std::size_t>(kMostLiftedSides * (frame.width + frame.height))) {}
-
-  /// Whether traversal `i` is still to be lifted.
-  bool allow(const path::Traversals& paths, std::size_t i) {
-    lifted_px_ += paths.ranked[i].points_px.size();
-    return i <= 1 || lifted_px_ <= most_px_;
-  }
-
- private:
-  std::size_t most_px_;
-  std::size_t lifted_px_ = 0;
-};
-
-/// [ranked] the refined priors of all that will most likely be asked for, where threads can make
-/// them at the same time; nothing elsewhere.
-using Refined = std::vector<std::optional<Result<prior::Prior>>>;
-
-template <class Refine>
-Refined refined_beforehand(const path::Traversals& paths, const Frame& frame, threads::Pool* pool,
-                           const Refine& refine) {
-  Refined refined(paths.ranked.size());
-  if (pool == nullptr || pool->threads() < 2) return refined;
+/// [lifted] the indices of the traversals that are lifted, in the order of `paths`. Path points lie
+/// a pixel apart.
+std::vector<std::size_t> to_lift(const path::Traversals& paths, const Frame& frame) {
+  const auto most_px = static_cast<std::size_t>(kMostLiftedSides * (frame.width + frame.height));
+  std::size_t lifted_px = 0;
   std::vector<std::size_t> wanted;
-  Lengths lengths(frame);
   for (std::size_t i = 0; i < paths.ranked.size(); ++i) {
-    if (!out_of_reach(paths, i) && lengths.allow(paths, i)) wanted.push_back(i);
+    const path::Path& path = paths.ranked[i];
+    if (path.score < paths.ranked.front().score - kReach) continue;
+    lifted_px += path.points_px.size();
+    if (i <= 1 || lifted_px <= most_px) wanted.push_back(i);
   }
-  threads::share_out(pool, static_cast<int>(wanted.size()), [&](int piece) {
-    const std::size_t i = wanted[static_cast<std::size_t>(piece)];
-    refined[i] = refine(i);
-  });
-  return refined;
+  return wanted;
 }
 
 }  // namespace
@@ -87,27 +60,27 @@ Result<std::vector<Hypothesis>> lift_all(const path::Traversals& paths,
                                          const evidence::Cloud& cloud,
                                          const evidence::VisiblePoints& visible, const Frame& frame,
                                          weights::PriorKind kind, threads::Pool* pool) {
-  const auto refine = [&](std::size_t i) {
-    return prior::refine(paths.ranked[i], width_px(paths, i), cloud, visible, frame);
-  };
-  const bool thesis = kind == weights::PriorKind::kThesis;
-  Refined known = refined_beforehand(paths, frame, thesis ? nullptr : pool, refine);
-  Lengths lengths(frame);
+  const std::vector<std::size_t> wanted = to_lift(paths, frame);
+  std::vector<std::optional<Result<prior::Prior>>> lifted(wanted.size());
+  threads::share_out(pool, static_cast<int>(wanted.size()), [&](int piece) {
+    const auto k = static_cast<std::size_t>(piece);
+    const path::Path& path = paths.ranked[wanted[k]];
+    lifted[k] = kind == weights::PriorKind::kThesis
+                    ? prior::lift(path, visible, frame)  // Eq. (3.1)-(3.7)
+                    : prior::refine(path, width_px(paths, path), cloud, visible, frame);
+  });
   std::vector<Hypothesis> hypotheses;
-  for (std::size_t i = 0; i < paths.ranked.size(); ++i) {
-    const path::Path& path = paths.ranked[i];
-    if (out_of_reach(paths, i) || !lengths.allow(paths, i)) continue;
-    auto lifted = thesis     ? prior::lift(path, visible, frame)  // Eq. (3.1)-(3.7)
-                  : known[i] ? *std::move(known[i])
-                             : refine(i);
-    if (!lifted) {
-      if (hypotheses.empty()) return lifted.error();
+  for (std::size_t k = 0; k < wanted.size(); ++k) {
+    Result<prior::Prior>& prior = *lifted[k];
+    if (!prior) {
+      if (hypotheses.empty()) return prior.error();
       continue;
     }
-    hypotheses.push_back({.prior = *std::move(lifted),
-                          .path = i,
+    const path::Path& path = paths.ranked[wanted[k]];
+    hypotheses.push_back({.prior = *std::move(prior),
+                          .path = wanted[k],
                           .score = path.score,
-                          .course = course_of(path, width_px(paths, i))});
+                          .course = course_of(path, width_px(paths, path))});
   }
   return hypotheses;
 }

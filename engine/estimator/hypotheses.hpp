@@ -69,6 +69,6 @@ struct Hypothesis {
 inline constexpr int kMostLiftedSides = 8;
 
 inline constexpr float kDoubt = 0.5F;  ///< margin below which runners-up are worth a draw
-inline constexpr double kReach = 6;  ///< path score by which a runner-up may trail the first
+inline constexpr double kReach = 6;    ///< path score by which a runner-up may trail the first
 
 }  // namespace flowdlo::estimator

@@ -87,12 +87,12 @@ Result<Judged> Judge::settle(Chosen chosen, const Sampled& sampled) const {
 
 Result<std::optional<Judged>> Judge::of_first(bool traced) const {
   if (fitted_ == nullptr || !(traced || conditions_.axes)) return std::optional<Judged>();
-  const float least = traced ? 0 : kSure;
+  const auto doubtful = [&](float confidence) { return !traced && confidence < kSure; };
   Chosen chosen = choose(first_look(conditions_, frame_), {});
-  if (chosen.returned.confidence < least) return std::optional<Judged>();
+  if (doubtful(chosen.returned.confidence)) return std::optional<Judged>();
   auto judged = settle(std::move(chosen), {});
   if (!judged) return judged.error();
-  if (judged->confidence < least) return std::optional<Judged>();
+  if (doubtful(judged->confidence)) return std::optional<Judged>();
   return std::optional(*std::move(judged));
 }
 

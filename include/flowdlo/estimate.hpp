@@ -61,7 +61,7 @@ struct DrawReport {
 struct Alternative {
   Centerline nodes{};        ///< lifted like the prior, camera frame, metres; each turned by the
                              ///< hints for itself, as Estimate::nodes
-  float score = 0;           ///< less what its path costs: higher is better, within a frame
+  float score = 0;           ///< minus the cost of its path: higher is better, within a frame
   float mask_agreement = 0;  ///< S_M, Eq. (3.32)
 };
 

@@ -310,7 +310,7 @@ FLOWDLO_EXPORT flowdlo_status flowdlo_estimate_init(flowdlo_estimate* estimate, 
 typedef struct flowdlo_alternative {
   size_t struct_size;            /* bytes; flowdlo_alternative_init */
   float nodes[FLOWDLO_NODES][3]; /* as flowdlo_estimate.nodes */
-  float score;                   /* less what its path costs: higher is better */
+  float score;                   /* minus the cost of its path: higher is better, within a frame */
   float mask_agreement;          /* [0, 1] */
 } flowdlo_alternative;
 

@@ -15,7 +15,6 @@
 #include "command/report_commands.hpp"
 #include "command_line.hpp"
 #include "estimator/conditions.hpp"
-#include "estimator/judge.hpp"
 #include "estimator/second_look.hpp"
 #include "eval/metrics.hpp"
 #include "field/axes.hpp"

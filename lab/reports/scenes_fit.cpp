@@ -74,10 +74,10 @@ std::vector<Sample> make_samples(const Options& options) {
   return samples;
 }
 
-std::string listed(const VectorXd& weights, int digits) {
+std::string listed(const VectorXd& weights) {
   std::string text;
   for (const double weight : weights) {
-    text += fmt::format("{}{:.{}f}", text.empty() ? "" : ", ", weight, digits);
+    text += fmt::format("{}{:.3f}", text.empty() ? "" : ", ", weight);
   }
   return text;
 }
@@ -107,8 +107,7 @@ void fit_confidence(const std::vector<Sample>& samples) {
     if (weights.tail(kFeatures - kFirstAgainst).maxCoeff(&worst) <= 0) break;
     fixed[static_cast<std::size_t>(kFirstAgainst + worst)] = true;
   }
-  fmt::print("confidence, {} scenes\nkConfidenceWeights{{{}}}\n", samples.size(),
-             listed(weights, 3));
+  fmt::print("confidence, {} scenes\nkConfidenceWeights{{{}}}\n", samples.size(), listed(weights));
 }
 
 }  // namespace

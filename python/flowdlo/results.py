@@ -58,7 +58,7 @@ class Alternative:
     """A traversal of the rope that lost to the returned one."""
 
     nodes: npt.NDArray[np.float32]  #: [64, 3] metres, camera frame
-    score: float  #: less what its path costs: higher is better, within one frame
+    score: float  #: minus the cost of its path: higher is better, within a frame
     mask_agreement: float  #: [0, 1]
 
 

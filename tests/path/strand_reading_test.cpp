@@ -1,8 +1,8 @@
 #include "path/strand_reading.hpp"
-#include "geometry/mask_box.hpp"
 
 #include <gtest/gtest.h>
 
+#include "geometry/mask_box.hpp"
 #include "path/links.hpp"
 #include "path/strands.hpp"
 #include "path/window.hpp"

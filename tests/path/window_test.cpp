@@ -1,11 +1,11 @@
 #include "path/window.hpp"
-#include "geometry/mask_box.hpp"
 
 #include <gtest/gtest.h>
 
 #include <vector>
 
 #include "canvas.hpp"
+#include "geometry/mask_box.hpp"
 #include "path/region.hpp"
 
 namespace flowdlo::test {
