@@ -36,12 +36,18 @@ std::optional<SeenRope> seen_rope(const strand::Strand& strand, const synth::Tru
   SeenRope seen;
   seen.radius_m = rope.radius_m;
   seen.closed = rope.closed;
-  for (auto p = first; p != end; ++p) {
-    const auto z = static_cast<double>(p->depth_m);
-    seen.curve.emplace_back(
-        (static_cast<double>(p->u) - image.intrinsics.cx) * z / image.intrinsics.fx,
-        (static_cast<double>(p->v) - image.intrinsics.cy) * z / image.intrinsics.fy, z);
-  }
+  const auto axis = [&](auto from, auto to) {
+    Curve3 curve;
+    for (auto p = from; p != to; ++p) {
+      const auto z = static_cast<double>(p->depth_m);
+      curve.emplace_back(
+          (static_cast<double>(p->u) - image.intrinsics.cx) * z / image.intrinsics.fx,
+          (static_cast<double>(p->v) - image.intrinsics.cy) * z / image.intrinsics.fy, z);
+    }
+    return curve;
+  };
+  seen.curve = axis(first, end);
+  if (!rope.closed) seen.unseen = {axis(points.begin(), first), axis(end, points.end())};
   if (rope.closed) seen.curve.back() = seen.curve.front();
   seen.truth = nodes_of(seen.curve);
   return seen;

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <limits>
 #include <numeric>
+#include <tuple>
 #include <utility>
 
 #include "estimator/conditions.hpp"
@@ -78,7 +79,13 @@ Result<Ropes> by_priors(const Frame& frame, const RopesRun& run, RopesOutcome& o
   return result;
 }
 
-std::vector<Vector2d> line_of(const Estimate& rope, const Intrinsics& camera) {
+bool inside(const Vector2d& p, const Image& image) {
+  return p.x() > -0.5 && p.y() > -0.5 && p.x() < image.width - 0.5 && p.y() < image.height - 0.5;
+}
+
+// The rope in the image; what of its ends lies outside is left out.
+std::vector<Vector2d> line_of(const Estimate& rope, const Image& image) {
+  const Intrinsics& camera = image.camera;
   std::vector<Vector2d> line;
   for (std::size_t i = 1; i < rope.nodes.size(); ++i) {
     const Vector2d from = project(camera, vector_of(rope.nodes[i - 1]));
@@ -87,6 +94,10 @@ std::vector<Vector2d> line_of(const Estimate& rope, const Intrinsics& camera) {
     for (int k = 0; k < pieces; ++k) line.push_back(from + (to - from) * k / pieces);
   }
   line.push_back(project(camera, vector_of(rope.nodes.back())));
+  const auto shown = [&](const Vector2d& p) { return inside(p, image); };
+  const auto first = std::find_if(line.begin(), line.end(), shown);
+  const auto last = std::find_if(line.rbegin(), line.rend(), shown).base();
+  if (first < last) line = std::vector<Vector2d>(first, last);
   return line;
 }
 
@@ -96,43 +107,68 @@ struct Mark {
   double tolerance_px = 0;
 };
 
+// Places along a rope: `first` to `last` are those that the image shows. A line may end there, or
+// go on along what is hidden.
+struct Marks {
+  std::vector<Mark> all;
+  std::size_t first = 0;
+  std::size_t last = 0;
+
+  void reverse() {
+    std::reverse(all.begin(), all.end());
+    std::tie(first, last) = std::pair(all.size() - 1 - last, all.size() - 1 - first);
+  }
+};
+
 // True when path and marks can be walked together from end to end, never back.
-bool visits_in_order(const std::vector<Vector2d>& path, const std::vector<Mark>& marks) {
-  std::vector<char> reached(marks.size(), 0);
+bool visits_in_order(const std::vector<Vector2d>& path, const Marks& marks) {
+  std::vector<char> reached(marks.all.size(), 0);
   for (std::size_t i = 0; i < path.size(); ++i) {
     char diagonal = 0;
-    for (std::size_t j = 0; j < marks.size(); ++j) {
+    for (std::size_t j = 0; j < marks.all.size(); ++j) {
       const char above = i > 0 ? reached[j] : 0;
       const char left = j > 0 ? reached[j - 1] : 0;
-      const bool from = (i == 0 && j == 0) || above != 0 || left != 0 || diagonal != 0;
-      const bool near = (path[i] - marks[j].point_px).norm() <= marks[j].tolerance_px;
+      const bool begins = i == 0 && j <= marks.first;
+      const bool from = begins || above != 0 || left != 0 || diagonal != 0;
+      const Mark& mark = marks.all[j];
+      const bool near = (path[i] - mark.point_px).norm() <= mark.tolerance_px;
       reached[j] = from && near ? 1 : 0;
       diagonal = above;
     }
   }
-  return reached.back() != 0;
+  const auto ends = reached.begin() + static_cast<std::ptrdiff_t>(marks.last);
+  return std::any_of(ends, reached.end(), [](char there) { return there != 0; });
 }
 
-std::vector<Mark> marks_of(const SeenRope& rope, const Intrinsics& camera) {
-  std::vector<Mark> marks;
-  for (const Vector3d& p : respaced(rope.curve, 0.7 * rope.radius_m)) {
-    marks.push_back({project(camera, p), 2 * rope.radius_m * camera.fx / p.z() + 3});
-  }
+Marks marks_of(const SeenRope& rope, const Intrinsics& camera) {
+  Marks marks;
+  const auto add = [&](const Curve3& curve) {
+    if (curve.size() < 2) return;
+    for (const Vector3d& p : respaced(curve, 0.7 * rope.radius_m)) {
+      marks.all.push_back({project(camera, p), 2 * rope.radius_m * camera.fx / p.z() + 3});
+    }
+  };
+  add(rope.unseen[0]);
+  marks.first = marks.all.size();
+  add(rope.curve);
+  marks.last = marks.all.size() - 1;
+  add(rope.unseen[1]);
   return marks;
 }
 
 // A ring is visited from wherever the line begins.
-bool visits(std::vector<Vector2d> line, std::vector<Mark> marks, bool closed) {
+bool visits(const std::vector<Vector2d>& line, Marks marks, bool closed) {
+  std::vector<Mark>& all = marks.all;
   if (closed) {
     const auto nearest =
-        std::min_element(marks.begin(), marks.end(), [&](const Mark& a, const Mark& b) {
+        std::min_element(all.begin(), all.end(), [&](const Mark& a, const Mark& b) {
           return (a.point_px - line.front()).norm() < (b.point_px - line.front()).norm();
         });
-    std::rotate(marks.begin(), nearest, marks.end());
+    std::rotate(all.begin(), nearest, all.end());
   }
   if (visits_in_order(line, marks)) return true;
-  std::reverse(line.begin(), line.end());
-  if (closed) std::rotate(marks.begin(), marks.begin() + 1, marks.end());
+  if (closed) std::rotate(all.begin(), all.begin() + 1, all.end());
+  marks.reverse();
   return visits_in_order(line, marks);
 }
 
@@ -258,7 +294,7 @@ RopesOutcome outcome_of(const RopesScene& scene, const RopesRun& run) {
   outcome.rope_right.assign(answer->ropes.size(), false);
   std::vector<std::vector<Vector2d>> lines;
   for (const Estimate& rope : answer->ropes) {
-    lines.push_back(line_of(rope, scene.image.camera));
+    lines.push_back(line_of(rope, scene.image));
     outcome.confidence.push_back(static_cast<double>(rope.confidence));
   }
   std::vector<int> of(scene.ropes.size(), -1);

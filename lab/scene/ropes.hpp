@@ -1,6 +1,7 @@
 // Ropes: a scene of several ropes on a table or in the air, with the truth of each beside it.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string_view>
@@ -28,8 +29,9 @@ inline constexpr int kRopesKinds = 7;
 
 /// One rope of a scene, as far as the image shows it.
 struct SeenRope {
-  Curve3 curve;        ///< camera frame, dense; of a ring the last point is the first
-  Centerline truth{};  ///< 64 nodes of it, uniform in arclength
+  Curve3 curve;                    ///< camera frame, dense; of a ring the last point is the first
+  std::array<Curve3, 2> unseen{};  ///< how it goes on before and after `curve`, hidden or outside
+  Centerline truth{};              ///< 64 nodes of it, uniform in arclength
   double radius_m = 0;
   bool closed = false;
 };
