@@ -5,19 +5,13 @@
 #include <optional>
 #include <vector>
 
+#include "estimator/rope_confidence.hpp"
 #include "estimator/see_axes.hpp"
 #include "flowdlo/frame.hpp"
 #include "flowdlo/result.hpp"
 #include "path/path.hpp"
 
 namespace flowdlo::estimator {
-
-/// What a second reading says of a rope.
-enum class Witness {
-  kNone,     ///< there was none
-  kAgrees,   ///< it has the same rope
-  kDiffers,  ///< it has none like it
-};
 
 /// The ropes of a frame before pixels are given to them.
 struct RopeReadings {
@@ -37,9 +31,5 @@ struct RopeReadings {
 /// Whether two paths are one rope's: from end to end, in either direction, never farther apart
 /// than a width and a half.
 [[nodiscard]] bool same_rope(const path::Path& a, const path::Path& b, float width_px);
-
-/// [0, 1] how likely a rope is one of the frame's: by what its witness says and by `lead`, what any
-/// set of ropes without it costs more (path::RopePaths).
-[[nodiscard]] float told_apart(float lead, Witness witness);
 
 }  // namespace flowdlo::estimator

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "estimator/parted.hpp"
+#include "estimator/rope_confidence.hpp"
 #include "estimator/rope_crossings.hpp"
 #include "estimator/rope_views.hpp"
 #include "estimator/stopwatch.hpp"
@@ -59,7 +60,8 @@ Result<void> several_ropes(const Frame& frame, int ropes, const EstimateOne& one
       continue;
     }
     rope->closed = parted->paths.ropes[i].closed;
-    rope->confidence *= told_apart(parted->paths.lead[i], parted->witness[i]);
+    // Where a rope is alone there was nothing to tell apart.
+    if (count > 1 || rope->closed) rope->confidence = rope_confidence(parted->told[i], *rope);
     result.ropes.push_back(*std::move(rope));
     number[i + 1] = static_cast<std::uint16_t>(result.ropes.size());
   }

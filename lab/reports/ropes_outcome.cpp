@@ -11,12 +11,14 @@
 #include <utility>
 
 #include "estimator/conditions.hpp"
+#include "estimator/judge.hpp"
 #include "estimator/parted.hpp"
 #include "estimator/rope_crossings.hpp"
 #include "estimator/rope_views.hpp"
 #include "eval/metrics.hpp"
 #include "field/axes.hpp"
 #include "field/strand_field.hpp"
+#include "gate/calibrated.hpp"
 #include "geometry/polyline.hpp"
 #include "scene/setting.hpp"
 
@@ -49,8 +51,32 @@ std::vector<std::size_t> longest_first(const std::vector<Estimate>& ropes) {
   return order;
 }
 
-// Paths and refined priors, as the estimator makes them.
-Result<Ropes> by_priors(const Frame& frame, const RopesRun& run, RopesOutcome& outcome) {
+// Along the path that told the rope apart.
+Result<Estimate> along_path(const estimator::RopeView& view, const RopesRun& run) {
+  const Frame frame = view.frame();
+  Timings timings;
+  const estimator::Traced traced = view.traced();
+  const auto conditions = estimator::gather(frame, {}, timings, &traced);
+  if (!conditions) return conditions.error();
+  Estimate rope;
+  rope.nodes = conditions->hypotheses.front().prior.nodes;
+  rope.support = conditions->hypotheses.front().prior.support;
+  if (run.judge == nullptr) return rope;
+  auto& refine = run.judge->refine;
+  const Hints none;
+  const estimator::Judge judge(&run.judge->fitted, none, *conditions, frame, 0,
+                               refine ? &*refine : nullptr);
+  auto judged = judge.of_first(true);
+  if (!judged) return judged.error();
+  rope.nodes = (*judged)->nodes;
+  rope.support = (*judged)->support;
+  rope.confidence = (*judged)->confidence;
+  rope.one_rope = std::move((*judged)->one_rope);
+  return rope;
+}
+
+// Part by part, as the estimator does it.
+Result<Ropes> by_parts(const Frame& frame, const RopesRun& run, RopesOutcome& outcome) {
   const estimator::SeeAxes see = [&](float rope_width_px) {
     return seen_axes(frame, run, rope_width_px, outcome);
   };
@@ -59,20 +85,20 @@ Result<Ropes> by_priors(const Frame& frame, const RopesRun& run, RopesOutcome& o
   Ropes result;
   for (std::size_t i = 0; i < parted->paths.ropes.size(); ++i) {
     const estimator::RopeView view(*parted, i, frame);
-    Timings timings;
-    const estimator::Traced traced = view.traced();
-    const auto conditions = estimator::gather(view.frame(), {}, timings, &traced);
-    if (!conditions) return conditions.error();
-    Estimate rope;
-    rope.nodes = conditions->hypotheses.front().prior.nodes;
-    rope.support = conditions->hypotheses.front().prior.support;
-    rope.closed = parted->paths.ropes[i].closed;
-    rope.confidence = estimator::told_apart(parted->paths.lead[i], parted->witness[i]);
-    result.ropes.push_back(std::move(rope));
+    const bool closed = parted->paths.ropes[i].closed;
+    const bool alone = run.judge != nullptr && !frame.instances.empty() && !closed;
+    auto rope = alone ? run.model->estimate(view.frame()) : along_path(view, run);
+    if (!rope) return rope.error();
+    rope->closed = closed;
+    result.ropes.push_back(*std::move(rope));
   }
   for (const std::size_t i : longest_first(result.ropes)) {
-    outcome.lead.push_back(parted->paths.lead[i]);
-    outcome.witness.push_back(parted->witness[i]);
+    outcome.told.push_back(parted->told[i]);
+    if (run.judge == nullptr) continue;
+    outcome.own_log_odds.push_back(estimator::own_log_odds(result.ropes[i].confidence));
+  }
+  for (std::size_t i = 0; run.judge != nullptr && i < result.ropes.size(); ++i) {
+    result.ropes[i].confidence = estimator::rope_confidence(parted->told[i], result.ropes[i]);
   }
   result.instances = estimator::sort_longest_first(parted->instances, result.ropes);
   result.crossings = estimator::rope_crossings(result.ropes, frame);
@@ -281,8 +307,8 @@ RopesOutcome outcome_of(const RopesScene& scene, const RopesRun& run) {
   RopesOutcome outcome;
   const Frame frame = scene.frame(run.labels);
   const auto start = std::chrono::steady_clock::now();
-  auto answer =
-      run.model != nullptr ? run.model->estimate_ropes(frame) : by_priors(frame, run, outcome);
+  const bool whole = run.model != nullptr && run.judge == nullptr;
+  auto answer = whole ? run.model->estimate_ropes(frame) : by_parts(frame, run, outcome);
   const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - start;
   outcome.total_ms = took.count();
   if (!answer) {
@@ -292,10 +318,11 @@ RopesOutcome outcome_of(const RopesScene& scene, const RopesRun& run) {
   outcome.found = static_cast<int>(answer->ropes.size());
   outcome.parting_ms = answer->parting_ms;
   outcome.rope_right.assign(answer->ropes.size(), false);
+  outcome.rope_close.assign(answer->ropes.size(), false);
   std::vector<std::vector<Vector2d>> lines;
   for (const Estimate& rope : answer->ropes) {
     lines.push_back(line_of(rope, scene.image));
-    outcome.confidence.push_back(static_cast<double>(rope.confidence));
+    if (run.model != nullptr) outcome.confidence.push_back(static_cast<double>(rope.confidence));
   }
   std::vector<int> of(scene.ropes.size(), -1);
   for (std::size_t r = 0; r < scene.ropes.size(); ++r) {
@@ -310,6 +337,7 @@ RopesOutcome outcome_of(const RopesScene& scene, const RopesRun& run) {
     outcome.rope_right[found] = true;
     ++outcome.right;
     outcome.index_cm.push_back(100 * index_m(answer->ropes[found], rope));
+    outcome.rope_close[found] = outcome.index_cm.back() < 100 * gate::kCloseError_m;
   }
   const auto wanted = static_cast<int>(scene.ropes.size());
   outcome.all_right = outcome.found == wanted && outcome.right == wanted;

@@ -22,17 +22,15 @@
 #include "geometry/depth.hpp"
 #include "mat/mat_file.hpp"
 #include "reports/rendered_ropes.hpp"
+#include "reports/rope_odds.hpp"
 #include "reports/ropes_outcome.hpp"
 #include "scene/setting.hpp"
 #include "strand/scene_range.hpp"
-#include "survey/choice_fit.hpp"
 #include "survey/table.hpp"
 #include "survey/values.hpp"
 
 namespace flowdlo::lab {
 namespace {
-
-using estimator::Witness;
 
 struct Options {
   int scenes = 10;
@@ -50,26 +48,9 @@ struct Options {
   std::string weights;
   std::string field;
   std::string overlays;
+  bool odds = false;
   bool all = false;
 };
-
-// A rope that was found: how clearly it was told apart, and whether it is right.
-struct Told {
-  double lead = 0;
-  bool right = false;
-};
-
-// Most likely a and b of 1 / (1 + exp(-(a + b lead))).
-Eigen::VectorXd fitted(const std::vector<Told>& told) {
-  constexpr double kRidge = 0.1;
-  std::vector<survey::Choice> choices;
-  for (const Told& one : told) {
-    Eigen::MatrixXd rows(2, 2);
-    rows << 1, one.lead, 0, 0;
-    choices.push_back({rows, one.right ? 0 : 1});
-  }
-  return survey::fit(choices, 2, kRidge);
-}
 
 struct Tally {
   int scenes = 0;
@@ -80,12 +61,9 @@ struct Tally {
   int crossings = 0;
   int found = 0;
   int order_right = 0;
-  int trusted = 0;  // confidence of a half at least, of the right
-  int doubted = 0;  // below, of the wrong
-  int wrong = 0;
   survey::Values index_cm, total_ms, field_ms;
-  std::vector<std::pair<double, bool>> confidences;  // of each rope found, and whether it is right
-  std::map<Witness, std::vector<Told>> told;
+  std::vector<std::pair<double, bool>> confidences;  // of each rope found, and whether it is close
+  RopeOdds odds;
 
   void add(const RopesScene& scene, const RopesOutcome& outcome) {
     ++scenes;
@@ -97,55 +75,51 @@ struct Tally {
     found += outcome.crossings_found;
     order_right += outcome.crossings_right;
     for (std::size_t i = 0; i < outcome.confidence.size(); ++i) {
-      const bool sure = outcome.confidence[i] >= 0.5;
-      confidences.emplace_back(outcome.confidence[i], outcome.rope_right[i]);
-      if (i < outcome.lead.size()) {
-        const auto lead = static_cast<double>(outcome.lead[i]);
-        told[outcome.witness[i]].push_back({lead, outcome.rope_right[i]});
-      }
-      if (outcome.rope_right[i]) {
-        trusted += sure ? 1 : 0;
-      } else {
-        ++wrong;
-        doubted += sure ? 0 : 1;
-      }
+      confidences.emplace_back(outcome.confidence[i], outcome.rope_close[i]);
     }
+    odds.add(outcome);
     index_cm.add(survey::Values(outcome.index_cm));
     total_ms.add(outcome.total_ms);
     if (outcome.axes) field_ms.add(outcome.field_ms);
   }
 
-  // How often ropes of a confidence are right.
+  // [0, 1] share of the close or other ropes that have a confidence of a half.
+  [[nodiscard]] double trusted(bool close) const {
+    survey::Values sure;
+    for (const auto& [confidence, is_close] : confidences) {
+      if (is_close == close) sure.add(confidence >= 0.5 ? 1 : 0);
+    }
+    return sure.mean();
+  }
+
+  // How often ropes of a confidence are close.
   void print_calibration() const {
     constexpr std::array kBounds{0.0, 0.25, 0.5, 0.75, 0.9, 0.97, 1.0};
-    survey::Table bins({"confidence", "ropes", "mean confidence", "right"});
+    survey::Table bins({"confidence", "ropes", "mean confidence", "right and less than 1 cm off"});
+    double off = 0;
     for (std::size_t b = 0; b + 1 < kBounds.size(); ++b) {
       survey::Values said;
       survey::Values correct;
-      for (const auto& [confidence, good] : confidences) {
+      for (const auto& [confidence, close] : confidences) {
         const bool last = b + 2 == kBounds.size();
         if (confidence < kBounds[b] || (confidence >= kBounds[b + 1] && !last)) continue;
         said.add(confidence);
-        correct.add(good ? 100 : 0);
+        correct.add(close ? 1 : 0);
       }
+      if (said.count() == 0) continue;
+      off += static_cast<double>(said.count()) * std::abs(said.mean() - correct.mean());
       bins.add({fmt::format("{:.2f} to {:.2f}", kBounds[b], kBounds[b + 1]),
                 std::to_string(said.count()), fmt::format("{:.3f}", said.mean()),
-                fmt::format("{:.1f} %", correct.mean())});
+                fmt::format("{:.1f} %", 100 * correct.mean())});
     }
-    survey::Table readings({"second reading", "ropes", "right", "odds: a + b lead"});
-    for (const auto& [witness, told_of] : told) {
-      const auto correct =
-          std::count_if(told_of.begin(), told_of.end(), [](const Told& one) { return one.right; });
-      const auto odds = fitted(told_of);
-      readings.add({witness == Witness::kNone     ? "none"
-                    : witness == Witness::kAgrees ? "agrees"
-                                                  : "differs",
-                    std::to_string(told_of.size()),
-                    fmt::format("{:.1f} %", survey::percent(static_cast<double>(correct),
-                                                            static_cast<double>(told_of.size()))),
-                    fmt::format("{:.2f} {:+.2f}", odds[0], odds[1])});
+    if (!confidences.empty()) {
+      fmt::print(
+          "{}mean distance between both, a rope: {:.3f}; of the close ropes {:.1f} % have a "
+          "confidence of 0.5 at least, of the others {:.1f} %\n",
+          bins.text(), off / static_cast<double>(confidences.size()), 100 * trusted(true),
+          100 * trusted(false));
     }
-    fmt::print("{}{}", bins.text(), readings.text());
+    odds.print();
     if (field_ms.count() == 0) return;
     fmt::print("ms of the strand field: median {:.0f}, 95 % {:.0f}\n", field_ms.median(),
                field_ms.quantile(0.95));
@@ -158,8 +132,7 @@ struct Tally {
                fmt::format("{:.3f} / {:.3f} / {:.3f}", index_cm.mean(), index_cm.median(),
                            index_cm.quantile(0.95)),
                fmt::format("{} of {} of {}", order_right, found, crossings),
-               fmt::format("{:.1f} %", survey::percent(trusted, right)),
-               fmt::format("{} of {}", doubted, wrong), fmt::format("{:.0f}", total_ms.median())});
+               fmt::format("{:.0f}", total_ms.median())});
   }
 };
 
@@ -229,31 +202,42 @@ class Answers {
 
   Result<RopesOutcome> of(const RopesScene& scene, int wanted) {
     if (!options_.weights.empty() && (!model_ || wanted != made_for_)) {
-      Config config;
-      config.weights = options_.weights;
-      config.device = "cpu";
-      config.ropes = wanted;
-      config.field_weights = options_.field;
-      if (options_.field.empty()) config.field = FieldChoice::kOff;
-      auto made = Estimator::create(config);
+      auto made = Estimator::create(config(wanted));
       if (!made) return made.error();
       model_ = *std::move(made);
       made_for_ = wanted;
     }
-    if (!options_.field.empty() && options_.weights.empty() && !network_) {
+    const bool by_parts = options_.weights.empty() || options_.odds;
+    if (!options_.field.empty() && by_parts && !network_) {
       auto opened = strand::one_network(options_.field);
       if (!opened) return opened.error();
       network_ = *std::move(opened);
     }
+    if (options_.odds && !judge_) {
+      auto opened = open_judge(config(wanted));
+      if (!opened) return opened.error();
+      judge_ = *std::move(opened);
+    }
     return outcome_of(scene, {wanted, options_.labels, model_ ? &*model_ : nullptr,
-                              network_ ? &*network_ : nullptr});
+                              network_ ? &*network_ : nullptr, judge_ ? &*judge_ : nullptr});
   }
 
  private:
+  [[nodiscard]] Config config(int wanted) const {
+    Config config;
+    config.weights = options_.weights;
+    config.device = "cpu";
+    config.ropes = wanted;
+    config.field_weights = options_.field;
+    if (options_.field.empty()) config.field = FieldChoice::kOff;
+    return config;
+  }
+
   const Options& options_;
   std::optional<Estimator> model_;
   int made_for_ = 0;
   std::optional<field::Network> network_;
+  std::optional<RopeJudge> judge_;
 };
 
 // All scenes of a run and what came of them.
@@ -280,8 +264,7 @@ class Report {
 
   void print() const {
     survey::Table table({"scenes of", "scenes", "right number", "wholly right", "ropes right",
-                         "index error", "crossings", "confidence >= 0.5, of the right",
-                         "< 0.5, of the wrong", "ms"});
+                         "index error", "crossings", "ms"});
     for (const auto& [kind, tally] : by_kind_) tally.add_row(kind, table);
     for (const auto& [ropes, tally] : by_number_) {
       tally.add_row(std::to_string(ropes) + " ropes", table);
@@ -346,6 +329,10 @@ Result<void> add_rendered(const Options& options, Report& report) {
 }
 
 int run(const Options& options) {
+  if (options.odds && options.weights.empty()) {
+    fmt::print(stderr, "ropes-report --odds: expected --weights FILE, got none; give both\n");
+    return 2;
+  }
   Report report(options);
   auto done = add_drawn(options, report);
   if (done) done = add_rendered(options, report);
@@ -413,6 +400,8 @@ void add_ropes_report(CLI::App& program, support::ExitCode& exit_code) {
   app.add_option("--overlays", options->overlays, "Draw the scenes that are not right into DIR")
       ->check(CLI::ExistingDirectory)
       ->type_name("DIR");
+  app.add_flag("--odds", options->odds,
+               "With --weights: fit how sure each rope's estimate is to what tells of it");
   app.add_flag("--all", options->all, "Draw those that are right as well");
   support::set_action(app, exit_code, [options] { return run(*options); });
 }

@@ -520,24 +520,5 @@ TEST(OneRopeAmongAnyNumber, IsARingWhereNothingShowsItsEnds) {
   }
 }
 
-TEST(ToldApart, WithoutAWitnessItRisesFromDoubtAtATieToCertainty) {
-  const auto alone = [](float lead) {
-    return estimator::told_apart(lead, estimator::Witness::kNone);
-  };
-  EXPECT_LT(alone(0), 0.2F);
-  EXPECT_LT(alone(1), alone(2));
-  EXPECT_GT(alone(path::kMostLead), 0.97F);
-}
-
-TEST(ToldApart, ARopeThatTheMaskHasAsWellIsSurerThanOneThatItHasNot) {
-  for (const float lead : {0.5F, 2.0F, 6.0F}) {
-    const float agreed = estimator::told_apart(lead, estimator::Witness::kAgrees);
-    const float differs = estimator::told_apart(lead, estimator::Witness::kDiffers);
-    EXPECT_LT(differs, 0.7F * agreed);
-    EXPECT_GT(differs, 0.2F);
-  }
-  EXPECT_GT(estimator::told_apart(path::kMostLead, estimator::Witness::kAgrees), 0.97F);
-}
-
 }  // namespace
 }  // namespace flowdlo
