@@ -40,7 +40,7 @@ std::vector<float> unseen_growth(std::span<const Vector3f> points, const Strip& 
   std::vector<float> growth(points.size(), kMostSigma_m);
   const auto pass = [&](std::size_t i, std::size_t from) {
     const float open = strip.stations[i].masked ? kMaskedGrowth : kGapGrowth;
-    const float rate = rope.hidden[i] != 0 ? kHiddenGrowth : open;
+    const float rate = strip.neighbour[i] >= 0 ? kHiddenGrowth : open;
     growth[i] = std::min(growth[i], growth[from] + rate * (points[i] - points[from]).norm());
   };
   for (std::size_t i = 0; i < points.size(); ++i) {

@@ -22,12 +22,11 @@ constexpr float kFollowWidths = 3.0F;     // of mask beyond the path, at most
 constexpr float kDirectionWidths = 0.7F;  // length over which the direction is taken
 constexpr float kMiddleWidths = 0.8F;     // the mask's edge is looked for this far
 constexpr float kProbePx = 0.5F;
-constexpr float kGain = 0.5F;              // of the way to the middle, a step
-constexpr float kCoveredWidths = 0.7F;     // mask this near to another part of the path is passed
-constexpr float kMostHiddenWidths = 3.0F;  // of an end; a longer stretch is no guess
-constexpr float kMostShare = 0.25F;        // of the strip that a cap may take
-constexpr float kFreePx = 2.5F;            // beyond a tip there is no mask
-constexpr float kNearerWidths = 2.0F;      // nearer than the rope: something before it
+constexpr float kGain = 0.5F;           // of the way to the middle, a step
+constexpr float kCoveredWidths = 0.7F;  // mask this near to another part of the path is passed
+constexpr float kMostShare = 0.25F;     // of the strip that a cap may take
+constexpr float kFreePx = 2.5F;         // beyond a tip there is no mask
+constexpr float kNearerWidths = 2.0F;   // nearer than the rope: something before it
 constexpr float kInnerWidths = 15.0F;
 constexpr float kEatenWidths = 0.5F;
 constexpr float kHangsWidths = 5.0F;  // before what lies farther
@@ -315,25 +314,6 @@ Extent without_caps(const Strip& strip, const Frame& frame) {
   const bool fine = told > 0 && width_px / count >= kFinePx;
   const float doubt = round > kSurelyRound ? kRoundDoubt : kFineDoubt;
   return {cap_px[0], whole - cap_px[1], tip, fine ? doubt : kCoarseDoubt};
-}
-
-Extent without_hidden_ends(const Strip& strip, const Extent& extent,
-                           std::span<const std::uint8_t> seen) {
-  const auto count = static_cast<int>(strip.stations.size());
-  const float whole = static_cast<float>(count - 1) * strip.step_px;
-  Extent result = extent;
-  for (const bool front : {true, false}) {
-    int hidden = 0;
-    for (; hidden < count; ++hidden) {
-      const auto i = static_cast<std::size_t>(front ? hidden : count - 1 - hidden);
-      if (seen[i] != 0 || strip.neighbour[i] < 0) break;
-    }
-    const float reach = static_cast<float>(hidden) * strip.step_px;
-    const bool sure = extent.tip[front ? 0 : 1];
-    if (sure || hidden == count || reach > kMostHiddenWidths * strip.width_px) continue;
-    (front ? result.begin_px : result.end_px) = front ? reach : whole - reach;
-  }
-  return result.begin_px < result.end_px ? result : extent;
 }
 
 }  // namespace flowdlo::prior

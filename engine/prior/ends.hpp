@@ -3,7 +3,6 @@
 
 #include <Eigen/Core>
 #include <array>
-#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -34,10 +33,5 @@ struct Extent {
 /// not tell. Ends that are no tips (at the image's border, on another strand, where the mask goes
 /// on) stay where they are.
 [[nodiscard]] Extent without_caps(const Strip& strip, const Frame& frame);
-
-/// `extent` without what of its ends lies behind another strand: nobody knows how far the rope goes
-/// on there. `seen` is [stations].
-[[nodiscard]] Extent without_hidden_ends(const Strip& strip, const Extent& extent,
-                                         std::span<const std::uint8_t> seen);
 
 }  // namespace flowdlo::prior

@@ -160,8 +160,7 @@ Result<Prior> refine(const path::Path& path, float rope_width_px, const evidence
     return no_evidence("depths beside the path", static_cast<int>(cloud.points_cam.size()));
   }
   Prior prior;
-  const Curve curve =
-      make_curve(strip, rope, without_hidden_ends(strip, extent, rope.seen), frame.intrinsics.fx);
+  const Curve curve = make_curve(strip, rope, extent, frame.intrinsics.fx);
   const std::vector<float> arclength_px = place_nodes(curve, prior);
   doubt_along({strip, extent, rope, frame}, arclength_px, prior);
   const float scale = geometry::pixel_scale(frame.width);

@@ -12,7 +12,6 @@
 #include <utility>
 
 #include "geometry/quantile.hpp"
-#include "prior/contacts.hpp"
 #include "prior/depth_profile.hpp"
 #include "prior/ground.hpp"
 #include "prior/rope_radius.hpp"
@@ -31,8 +30,6 @@ constexpr float kLeastSine = 0.25F;  // of ray and axis
 constexpr float kForgiven = 0.5F;    // radii of misfit
 constexpr int kSlantRounds = 2;      // a steeper axis lies deeper, and is steeper for it
 constexpr float kSameSlant = 0.03F;
-constexpr int kLeastVotes = 6;        // readings that tell which strand is above
-constexpr float kUnderWeight = 4.0F;  // stations' worth of evidence
 
 class Measurement {
  public:
@@ -45,7 +42,6 @@ class Measurement {
     radius_m_ = mask_radius_m(strip_, extent_, background_m_);
     slant_.assign(strip_.stations.size(), 1.0F);
     collect();
-    contacts_ = find_contacts(strip_);
     fit(false);
     incline();
     radius_m_ = depth_radius_m(strip_, extent_, axis_m_, slant_, radius_m_);
@@ -117,7 +113,6 @@ class Measurement {
              reading.depth_m + push_m(reading.station, reading.offset_px, reading.depth_m), 1});
       }
     }
-    if (shared) press_apart(claims);
     const float smooth_px = std::max(kSmoothWidths * strip_.width_px, kLeastSmoothPx);
     const float smooth = smooth_px / std::max(strip_.step_px, 1e-3F);
     axis_m_ = fit_profile(static_cast<int>(strip_.stations.size()), claims, axis_m_,
@@ -127,64 +122,6 @@ class Measurement {
                            .noise_m = kForgiven * radius_m_,
                            .slant = slant_});
     for (double& z : axis_m_) z = std::max(z, kLeastDepth_m);  // where it goes on beyond all depths
-  }
-
-  [[nodiscard]] double mean_axis_m(const Stretch& stretch) const {
-    double sum = 0;
-    for (int i = stretch.first; i <= stretch.last; ++i) sum += axis_m_[static_cast<std::size_t>(i)];
-    return sum / (stretch.last - stretch.first + 1);
-  }
-
-  /// Readings that both strands of a contact could have made: how many there are, and how many more
-  /// of them fit the early strand than the late one.
-  struct Votes {
-    int cast = 0;
-    int early = 0;
-  };
-
-  [[nodiscard]] std::vector<Votes> count_votes() const {
-    std::vector<Votes> votes(contacts_.size());
-    for (const Reading& reading : core_) {
-      if (reading.rival < 0) continue;
-      for (std::size_t c = 0; c < contacts_.size(); ++c) {
-        const bool early = contacts_[c].early.holds(reading.station);
-        const bool late = contacts_[c].late.holds(reading.station);
-        if (!early && !late) continue;
-        ++votes[c].cast;
-        votes[c].early += own(reading) == early ? 1 : -1;
-      }
-    }
-    return votes;
-  }
-
-  /// Where strands cross, the one behind lies at least a diameter deeper than the one before. Where
-  /// no depth tells which is which, both give way.
-  void press_apart(std::vector<DepthClaim>& claims) {
-    hidden_.assign(strip_.stations.size(), 0);
-    const std::vector<Votes> votes = count_votes();
-    const float weight = kUnderWeight * std::min(strip_.width_px, 10.0F);
-    for (std::size_t c = 0; c < contacts_.size(); ++c) {
-      const Contact& contact = contacts_[c];
-      const double early_m = mean_axis_m(contact.early);
-      const double late_m = mean_axis_m(contact.late);
-      const bool told = votes[c].cast >= kLeastVotes;
-      const bool early_above = told ? votes[c].early > 0 : early_m < late_m;
-      const Stretch& above = early_above ? contact.early : contact.late;
-      const Stretch& below = early_above ? contact.late : contact.early;
-      const double gap = early_above ? late_m - early_m : early_m - late_m;
-      const double need = 2 * static_cast<double>(radius_m_ / station(below.first).ray.norm());
-      const double lift = told ? 0 : 0.5 * std::max(0.0, need - gap);
-      for (int i = below.first; i <= below.last; ++i) hidden_[static_cast<std::size_t>(i)] = 1;
-      if (gap >= need) continue;
-      const auto claim = [&](const Stretch& stretch, double axis_m) {
-        for (int i = stretch.first; i <= stretch.last; ++i) {
-          claims.push_back({i, static_cast<float>(axis_m), weight});
-        }
-      };
-      const double above_m = (early_above ? early_m : late_m) - lift;
-      if (lift > 0) claim(above, above_m);
-      claim(below, above_m + need);
-    }
   }
 
   /// 1 / sin of the angle between the ray and the axis. Returns by how much it changed at most, as
@@ -227,18 +164,15 @@ class Measurement {
       backs += misfit < radius_m_ ? 1 : 0;
     }
     for (const int backs : backing) rope.seen.push_back(backs > 0 ? 1 : 0);
-    rope.hidden = hidden_;
     rope.noise_m = misfits.empty() ? radius_m_ : 1.4826F * geometry::median_of(misfits);
   }
 
   const Strip& strip_;
   const Extent& extent_;
-  std::vector<Contact> contacts_;
   std::vector<Reading> core_;
   std::vector<float> background_m_;
   std::vector<float> slant_;
   std::vector<double> axis_m_;
-  std::vector<std::uint8_t> hidden_;
   float radius_m_ = 0;
 };
 

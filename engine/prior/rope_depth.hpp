@@ -10,12 +10,11 @@
 namespace flowdlo::prior {
 
 struct RopeDepth {
-  std::vector<double> axis_m;        ///< [stations] z of the centerline
-  std::vector<float> slant;          ///< [stations] 1 / sin of the angle between ray and rope
-  std::vector<std::uint8_t> seen;    ///< [stations] 1 where depths back it
-  std::vector<std::uint8_t> hidden;  ///< [stations] 1 where another strand lies over it
-  float radius_m = 0;                ///< of the rope
-  float noise_m = 0;                 ///< typical misfit of a depth, over its station's slant
+  std::vector<double> axis_m;      ///< [stations] z of the centerline
+  std::vector<float> slant;        ///< [stations] 1 / sin of the angle between ray and rope
+  std::vector<std::uint8_t> seen;  ///< [stations] 1 where depths back it
+  float radius_m = 0;              ///< of the rope
+  float noise_m = 0;               ///< typical misfit of a depth, over its station's slant
 };
 
 /// Empty `axis_m` when no station has a depth.

@@ -4,7 +4,6 @@
 
 #include <cmath>
 
-#include "prior/rope_depth.hpp"
 #include "prior/sheet.hpp"
 
 namespace flowdlo::prior {
@@ -72,19 +71,6 @@ TEST(WithoutCaps, TakesNothingOffWhereTheMaskGoesOn) {
   EXPECT_EQ(extent.begin_px, 0);
   EXPECT_EQ(extent.end_px, strip.stations.back().arclength_px);
   EXPECT_FALSE(extent.tip[0] || extent.tip[1]);
-}
-
-// The rope comes from the left and ends somewhere behind the strand along u = 160, which is nearer.
-TEST(WithoutHiddenEnds, StopsWhereTheRopeGoesBehindAnotherStrand) {
-  Sheet sheet = Sheet().box(30, 25, 165, 35).box(30, 25, 40, 125).box(30, 115, 154, 125);
-  sheet.box(155, 25, 165, 220, 0.45F);
-  const Points path{{160, 220}, {160, 30}, {35, 30}, {35, 120}, {163, 120}};
-  const Strip strip = strip_of(path, 11, sheet);
-  const Extent whole{0, strip.stations.back().arclength_px};
-  const RopeDepth rope = measure_rope(strip, whole);
-  const Extent extent = without_hidden_ends(strip, whole, rope.seen);
-  EXPECT_EQ(extent.begin_px, 0);
-  EXPECT_NEAR(whole.end_px - extent.end_px, 163 - 154.5, 2);
 }
 
 }  // namespace
