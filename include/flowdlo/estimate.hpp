@@ -160,7 +160,8 @@ struct Estimate {
   /// of `nodes` from the true ones, Eq. (4.1), is below 1 cm. Thesis gate: that `nodes` visit the
   /// rope in order and leave no loop out. Logistic models fitted on synthetic scenes: below 0.5
   /// another way through the mask, or a mask that hides the way, has to be reckoned with.
-  /// A doubt about the mask (`one_rope`) leaves at most 0.25 of it.
+  /// A doubt about the mask (`one_rope`) leaves at most 0.25 of it. Of one rope of several it is
+  /// the probability that the rope is one of the frame's as well (docs/ropes.md).
   float confidence = 0;
   bool closed = false;  ///< a ring without ends: node 63 lies next to node 0
   OneRope one_rope;

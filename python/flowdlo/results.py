@@ -88,7 +88,8 @@ class Estimate:
     sigma_m: float32 [64], metres: 68 % of nodes are nearer to the truth than this, 95 % nearer
         than twice this. Not calibrated where `calibrated` is False.
     confidence: [0, 1], the probability that the nodes are within 1 cm of the truth in the mean;
-        where `calibrated` is False, that they visit the rope in order.
+        where `calibrated` is False, that they visit the rope in order; of one rope of several,
+        that it is one of the frame's as well.
     source: "prediction" of the model, or "prior", which is no failure.
     origin: which of all candidates: "first_prior", "runner_up" (another way through the mask),
         "other_reading" (found by a further reading), "frame_before" (a stream's rope
