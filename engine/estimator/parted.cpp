@@ -269,7 +269,8 @@ Result<Parted> part_labelled(const Frame& frame) {
     parted.width_px.push_back(traced->rope_width_px);
     parted.paths.rope_width_px = std::max(parted.paths.rope_width_px, traced->rope_width_px);
     parted.paths.ropes.push_back(std::move(traced->ropes.front()));
-    parted.told.push_back({.witness = Witness::kLabel, .lead = 0});
+    parted.paths.lead.push_back(0);  // that of a mask of one rope tells nothing
+    parted.witness.push_back(Witness::kLabel);
   }
   return parted;
 }
@@ -282,9 +283,7 @@ Result<Parted> part_ropes(const Frame& frame, int ropes, const SeeAxes& see) {
   if (!read) return read.error();
   Parted parted;
   parted.paths = std::move(read->paths);
-  for (std::size_t i = 0; i < read->witness.size(); ++i) {
-    parted.told.push_back({.witness = read->witness[i], .lead = parted.paths.lead[i]});
-  }
+  parted.witness = std::move(read->witness);
   parted.seen = std::move(read->seen);
   Parting(frame, parted).share_out();
   return parted;

@@ -17,7 +17,7 @@ namespace flowdlo::estimator {
 /// The ropes of a frame told apart.
 struct Parted {
   path::RopePaths paths;
-  std::vector<ToldApart> told;  ///< [ropes]
+  std::vector<Witness> witness;  ///< [ropes]
   /// [ropes] width of each, pixels, as its own part of the mask has it.
   std::vector<float> width_px;
   /// [height, width] the rope that a pixel shows, from 1; 0: none.

@@ -61,7 +61,9 @@ Result<void> several_ropes(const Frame& frame, int ropes, const EstimateOne& one
     }
     rope->closed = parted->paths.ropes[i].closed;
     // Where a rope is alone there was nothing to tell apart.
-    if (count > 1 || rope->closed) rope->confidence = rope_confidence(parted->told[i], *rope);
+    if (count > 1 || rope->closed) {
+      rope->confidence = rope_confidence({parted->witness[i], parted->paths.lead[i]}, *rope);
+    }
     result.ropes.push_back(*std::move(rope));
     number[i + 1] = static_cast<std::uint16_t>(result.ropes.size());
   }

@@ -2,12 +2,10 @@
 // behind estimator/rope_confidence.
 #pragma once
 
-#include <map>
 #include <vector>
 
 #include "estimator/rope_confidence.hpp"
 #include "reports/ropes_outcome.hpp"
-#include "survey/choice_fit.hpp"
 
 namespace flowdlo::lab {
 

@@ -93,12 +93,12 @@ Result<Ropes> by_parts(const Frame& frame, const RopesRun& run, RopesOutcome& ou
     result.ropes.push_back(*std::move(rope));
   }
   for (const std::size_t i : longest_first(result.ropes)) {
-    outcome.told.push_back(parted->told[i]);
-    if (run.judge == nullptr) continue;
-    outcome.own_log_odds.push_back(estimator::own_log_odds(result.ropes[i].confidence));
-  }
-  for (std::size_t i = 0; run.judge != nullptr && i < result.ropes.size(); ++i) {
-    result.ropes[i].confidence = estimator::rope_confidence(parted->told[i], result.ropes[i]);
+    if (run.judge == nullptr) break;
+    const estimator::ToldApart told{parted->witness[i], parted->paths.lead[i]};
+    Estimate& rope = result.ropes[i];
+    outcome.told.push_back(told);
+    outcome.own_log_odds.push_back(estimator::own_log_odds(rope.confidence));
+    rope.confidence = estimator::rope_confidence(told, rope);
   }
   result.instances = estimator::sort_longest_first(parted->instances, result.ropes);
   result.crossings = estimator::rope_crossings(result.ropes, frame);

@@ -26,8 +26,8 @@ struct RopesOutcome {
   std::vector<double> confidence;  ///< [found] empty by paths alone
   std::vector<bool> rope_right;    ///< [found]
   std::vector<bool> rope_close;    ///< [found] right, and less than 1 cm off
-  std::vector<estimator::ToldApart> told;  ///< [found] of parts alone
-  std::vector<double> own_log_odds;        ///< [found] of parts that a judge saw
+  std::vector<estimator::ToldApart> told;  ///< [found] of parts that a judge saw
+  std::vector<double> own_log_odds;        ///< [found] likewise
   int crossings = 0;                       ///< between true ropes that are right,
   int crossings_found = 0;                 ///< of these those that are told of,
   int crossings_right = 0;                 ///< and of these those with the right one above
