@@ -30,7 +30,7 @@ struct Estimate {
     sigma_m: [f32; 64],
     support: [u8; 64],
     confidence: f32,
-    others: [u8; 148], // the rest of flowdlo_estimate
+    others: [u8; 156], // the rest of flowdlo_estimate
 }
 
 extern "C" {

@@ -50,7 +50,8 @@ std::span<const Value> span_of(const py::array_t<Value, py::array::c_style>& arr
 }
 
 Frame frame_of(const Floats& depth_m, const Bytes& mask, const std::array<float, 4>& intrinsics,
-               const std::optional<Bytes>& color) {
+               const std::optional<Bytes>& color,
+               const std::optional<Labels>& instances = std::nullopt) {
   if (depth_m.ndim() != 2) refuse("Estimator.estimate: depth_m: expected two dimensions");
   const auto& [fx, fy, cx, cy] = intrinsics;
   Frame frame{.width = static_cast<int>(depth_m.shape(1)),
@@ -60,6 +61,7 @@ Frame frame_of(const Floats& depth_m, const Bytes& mask, const std::array<float,
               .mask = span_of(mask),
               .color_bgr = {}};
   if (color) frame.color_bgr = span_of(*color);
+  if (instances) frame.instances = span_of(*instances);
   return frame;
 }
 
@@ -100,12 +102,13 @@ Hints hints_of(const py::dict& given) {
   return hints;
 }
 
-/// One estimator, whose calls wait for each other when they come from several threads.
+/// One estimator with the stream that it may follow, whose calls wait for each other when they come
+/// from several threads.
 class Handle {
  public:
   explicit Handle(const py::dict& given) {
     const Config config = config_of(given);
-    estimator_ = value_of(without_lock([&] { return Estimator::create(config); }));
+    tracker_ = value_of(without_lock([&] { return Tracker::create(config); }));
   }
   Handle(const Handle&) = delete;
   Handle& operator=(const Handle&) = delete;
@@ -113,45 +116,72 @@ class Handle {
 
   py::dict estimate(const Floats& depth_m, const Bytes& mask,
                     const std::array<float, 4>& intrinsics, const std::optional<Bytes>& color,
-                    const py::dict& hints) {
+                    const py::dict& hints, bool tracked) {
     const Frame frame = frame_of(depth_m, mask, intrinsics, color);
     const Hints known = hints_of(hints);
-    return dict_of(
-        value_of(locked([&](Estimator& estimator) { return estimator.estimate(frame, known); })));
+    return dict_of(value_of(locked([&](Tracker& tracker) {
+      return tracked ? tracker.estimate(frame, known) : tracker.estimator()->estimate(frame, known);
+    })));
   }
 
   py::dict estimate_ropes(const Floats& depth_m, const Bytes& mask,
                           const std::array<float, 4>& intrinsics, const std::optional<Bytes>& color,
                           const std::optional<Labels>& instances) {
-    Frame frame = frame_of(depth_m, mask, intrinsics, color);
-    if (instances) frame.instances = span_of(*instances);
-    return dict_of(
-        value_of(locked([&](Estimator& estimator) { return estimator.estimate_ropes(frame); })),
-        frame.width, frame.height);
+    const Frame frame = frame_of(depth_m, mask, intrinsics, color, instances);
+    return dict_of(value_of(locked([&](Tracker& tracker) {
+                     return tracker.estimator()->estimate_ropes(frame);
+                   })),
+                   frame.width, frame.height);
+  }
+
+  py::dict track_ropes(const Floats& depth_m, const Bytes& mask,
+                       const std::array<float, 4>& intrinsics, const std::optional<Bytes>& color,
+                       const std::optional<Labels>& instances) {
+    const Frame frame = frame_of(depth_m, mask, intrinsics, color, instances);
+    auto tracked =
+        value_of(locked([&](Tracker& tracker) { return tracker.estimate_ropes(frame); }));
+    py::dict result = dict_of(std::move(tracked.found), frame.width, frame.height);
+    result["numbers"] = py::tuple(py::cast(tracked.numbers));
+    result["missing"] = py::tuple(py::cast(tracked.missing));
+    return result;
+  }
+
+  void configure_tracking(double most_moved_m, int patience) {
+    const TrackerConfig config{.most_moved_m = most_moved_m, .patience = patience};
+    const auto done = locked([&](Tracker& tracker) { return tracker.configure(config); });
+    if (!done) throw Failure(done.error());
+  }
+
+  void forget() {
+    const auto done = locked([](Tracker& tracker) -> Result<void> {
+      tracker.forget();
+      return {};
+    });
+    if (!done) throw Failure(done.error());
   }
 
   [[nodiscard]] py::str device() {
     return text(value_of(locked(
-        [](const Estimator& estimator) -> Result<std::string> { return estimator.device(); })));
+        [](Tracker& tracker) -> Result<std::string> { return tracker.estimator()->device(); })));
   }
   [[nodiscard]] py::str field_device() {
-    return text(value_of(locked([](const Estimator& estimator) -> Result<std::string> {
-      return estimator.field_device();
+    return text(value_of(locked([](Tracker& tracker) -> Result<std::string> {
+      return tracker.estimator()->field_device();
     })));
   }
   [[nodiscard]] int euler_steps() {
     return value_of(
-        locked([](const Estimator& estimator) -> Result<int> { return estimator.euler_steps(); }));
+        locked([](Tracker& tracker) -> Result<int> { return tracker.estimator()->euler_steps(); }));
   }
   [[nodiscard]] int draws() {
     return value_of(
-        locked([](const Estimator& estimator) -> Result<int> { return estimator.draws(); }));
+        locked([](Tracker& tracker) -> Result<int> { return tracker.estimator()->draws(); }));
   }
 
   void close() {
     without_lock([&] {
       const auto lock = alone();
-      estimator_.reset();
+      tracker_.reset();
     });
   }
 
@@ -163,10 +193,10 @@ class Handle {
   }
 
   template <class Work>
-  auto locked(const Work& work) -> decltype(work(std::declval<Estimator&>())) {
-    return without_lock([&]() -> decltype(work(std::declval<Estimator&>())) {
+  auto locked(const Work& work) -> decltype(work(std::declval<Tracker&>())) {
+    return without_lock([&]() -> decltype(work(std::declval<Tracker&>())) {
       const auto lock = alone();
-      if (estimator_) return work(*estimator_);
+      if (tracker_) return work(*tracker_);
       return Error{ErrorCode::kBadInput,
                    "Estimator: expected an open one, got one that was closed; make a new one"};
     });
@@ -174,7 +204,7 @@ class Handle {
 
   pid_t process_ = getpid();
   std::mutex mutex_;
-  std::optional<Estimator> estimator_;
+  std::optional<Tracker> tracker_;
 };
 
 void translate(std::exception_ptr thrown) {
@@ -205,10 +235,15 @@ PYBIND11_MODULE(_core, module) {
       .def(py::init<const py::dict&>())
       .def("estimate", &Handle::estimate, py::arg("depth_m").noconvert(),
            py::arg("mask").noconvert(), py::arg("intrinsics"), py::arg("color_bgr").noconvert(),
-           py::arg("hints") = py::dict())
+           py::arg("hints") = py::dict(), py::arg("tracked") = false)
       .def("estimate_ropes", &Handle::estimate_ropes, py::arg("depth_m").noconvert(),
            py::arg("mask").noconvert(), py::arg("intrinsics"), py::arg("color_bgr").noconvert(),
            py::arg("instances").noconvert())
+      .def("track_ropes", &Handle::track_ropes, py::arg("depth_m").noconvert(),
+           py::arg("mask").noconvert(), py::arg("intrinsics"), py::arg("color_bgr").noconvert(),
+           py::arg("instances").noconvert())
+      .def("configure_tracking", &Handle::configure_tracking)
+      .def("forget", &Handle::forget)
       .def("close", &Handle::close)
       .def_property_readonly("device", &Handle::device)
       .def_property_readonly("field_device", &Handle::field_device)

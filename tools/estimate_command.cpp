@@ -18,6 +18,7 @@
 #include "files/shown_name.hpp"
 #include "flowdlo/estimator.hpp"
 #include "flowdlo/frame_folder.hpp"
+#include "flowdlo/tracker.hpp"
 #include "frame_list.hpp"
 #include "frame_output.hpp"
 #include "hint_options.hpp"
@@ -82,7 +83,15 @@ std::string summary(const Estimate& estimate, const support::FrameEntry& entry,
                      files::shown(folder / "overlay.png"));
 }
 
-std::string summary(const Ropes& ropes, const support::FrameEntry& entry, const fs::path& folder) {
+/// Of a frame on its own.
+Result<TrackedRopes> untracked(Result<Ropes> ropes) {
+  if (!ropes) return ropes.error();
+  return TrackedRopes{.found = *std::move(ropes), .numbers = {}, .missing = {}};
+}
+
+std::string summary(const TrackedRopes& tracked, const support::FrameEntry& entry,
+                    const fs::path& folder) {
+  const Ropes& ropes = tracked.found;
   float least = 1;
   for (const Estimate& rope : ropes.ropes) least = std::min(least, rope.confidence);
   return fmt::format("{}: {} rope{}, {} crossing{}, least confidence {:.2f}, {:.0f} ms, {}",
@@ -94,6 +103,7 @@ std::string summary(const Ropes& ropes, const support::FrameEntry& entry, const 
 
 /// What one frame leaves to the next.
 struct Sequence {
+  Tracker tracker;  // of --stream; without it only its estimator is asked
   Hints hints;
   fs::path recording{};  // that the frame before is of; empty: a folder
   std::optional<VideoFile> video{};
@@ -110,7 +120,9 @@ void add_failure(Sequence& sequence, const support::FrameEntry& entry,
 
 /// What there is to say about one frame, or why there is no estimate on disk.
 Result<std::string> run_frame(const EstimateOptions& options, const support::FrameEntry& entry,
-                              Estimator& estimator, Sequence& sequence) {
+                              Sequence& sequence) {
+  Tracker& tracker = sequence.tracker;
+  Estimator& estimator = *tracker.estimator();
   const fs::path folder = options.out / entry.name;
   const auto provenance = provenance_of(options, entry, estimator);
   const auto durability = support::chosen_durability();
@@ -124,7 +136,8 @@ Result<std::string> run_frame(const EstimateOptions& options, const support::Fra
   };
   if (!loaded) return fail(loaded.error());
   if (options.ropes.several) {
-    const auto ropes = estimator.estimate_ropes(loaded->frame());
+    const auto ropes = options.stream ? tracker.estimate_ropes(loaded->frame())
+                                      : untracked(estimator.estimate_ropes(loaded->frame()));
     if (!ropes) return fail(ropes.error());
     const auto written = write_ropes(folder, loaded->frame(), *ropes, provenance, durability);
     if (!written) return fail(written.error());
@@ -135,8 +148,11 @@ Result<std::string> run_frame(const EstimateOptions& options, const support::Fra
   }
   Tensors tensors;
   const bool looks_inside = options.tensors || options.field_overlay;
-  const auto estimate = looks_inside ? estimator.estimate(loaded->frame(), sequence.hints, tensors)
-                                     : estimator.estimate(loaded->frame(), sequence.hints);
+  const auto ask = [&](auto& of) {
+    return looks_inside ? of.estimate(loaded->frame(), sequence.hints, tensors)
+                        : of.estimate(loaded->frame(), sequence.hints);
+  };
+  const auto estimate = options.stream ? ask(tracker) : ask(estimator);
   if (!estimate) return fail(estimate.error());
   std::vector<Point3> curve;
   if (options.curve_points > 0) {
@@ -149,7 +165,7 @@ Result<std::string> run_frame(const EstimateOptions& options, const support::Fra
                                        options.field_overlay ? &tensors.strands : nullptr, curve},
                                       provenance, durability);
   if (!written) return fail(written.error());
-  if (options.stream) sequence.hints.previous = estimate->nodes;
+  if (options.stream) sequence.hints.previous.reset();  // from now on the tracker's
   if (sequence.video) {
     sequence.video->add(draw_overlay(loaded->frame(), *estimate, provenance.device,
                                      options.field_overlay ? &tensors.strands : nullptr));
@@ -162,19 +178,19 @@ void begin_frame(const EstimateOptions& options, const support::FrameEntry& entr
                  Sequence& sequence) {
   const fs::path recording = entry.read ? entry.folder : fs::path();
   if (options.stream && recording != sequence.recording) {
+    sequence.tracker.forget();
     sequence.hints.previous = options.hints.previous;
   }
   sequence.recording = recording;
 }
 
 support::ExitCode run_frames(const EstimateOptions& options,
-                             const std::vector<support::FrameEntry>& frames, Estimator& estimator,
-                             Sequence& sequence) {
+                             const std::vector<support::FrameEntry>& frames, Sequence& sequence) {
   support::ProgressBar progress("estimate", static_cast<int>(frames.size()), options.quiet);
   auto exit_code = support::ExitCode::kDone;
   for (const auto& entry : frames) {
     begin_frame(options, entry, sequence);
-    const auto outcome = run_frame(options, entry, estimator, sequence);
+    const auto outcome = run_frame(options, entry, sequence);
     progress.clear();
     if (!outcome) {
       exit_code = support::ExitCode::kFailed;
@@ -215,12 +231,12 @@ support::ExitCode run(EstimateOptions& options) {
     complain(made.error());
     return support::ExitCode::kUsage;
   }
-  auto estimator = Estimator::create(options.config);
-  if (!estimator) {
-    complain(estimator.error());
+  auto tracker = Tracker::create(options.config);
+  if (!tracker) {
+    complain(tracker.error());
     return support::ExitCode::kUsage;
   }
-  Sequence sequence{.hints = options.hints};
+  Sequence sequence{.tracker = *std::move(tracker), .hints = options.hints};
   if (!options.video.empty()) {
     auto video = VideoFile::open(options.video, options.frames_per_s);
     if (!video) {
@@ -229,7 +245,7 @@ support::ExitCode run(EstimateOptions& options) {
     }
     sequence.video.emplace(*std::move(video));
   }
-  return run_frames(options, *frames, *estimator, sequence);
+  return run_frames(options, *frames, sequence);
 }
 
 CLI::Validator ends_in_mp4() {
@@ -262,7 +278,8 @@ void add_estimate_command(CLI::App& app, support::ExitCode& exit_code) {
       ->type_name("N");
   command->add_flag("--stream", options->stream,
                     "The frames follow each other: each estimate keeps the order of the ends, and "
-                    "the way through the mask where the frame leaves it open, of the one before");
+                    "the way through the mask where the frame leaves it open, of the one before; "
+                    "of several ropes each keeps its number");
   command
       ->add_option("--video", options->video,
                    "Write the overlays of all frames as one video as well; needs ffmpeg")
@@ -273,7 +290,7 @@ void add_estimate_command(CLI::App& app, support::ExitCode& exit_code) {
       ->check(CLI::Range(0.1, 240.0))
       ->needs("--video")
       ->type_name("N");
-  for (const char* of_one : {"--first-end", "--end", "--previous", "--curve", "--stream"}) {
+  for (const char* of_one : {"--first-end", "--end", "--previous", "--curve"}) {
     command->get_option(of_one)->excludes(ropes);
   }
   command

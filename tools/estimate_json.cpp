@@ -200,10 +200,15 @@ std::string estimate_json(const Estimate& estimate, const Provenance& provenance
   return text_of(whole_json(estimate, provenance));
 }
 
-std::string ropes_json(const Ropes& ropes, const Provenance& provenance) {
+std::string ropes_json(const TrackedRopes& tracked, const Provenance& provenance) {
+  const Ropes& ropes = tracked.found;
   Json json = whole_json(ropes.ropes.front(), provenance);
   json["ropes"] = Json::array();
-  for (std::size_t i = 0; i < ropes.ropes.size(); ++i) json["ropes"].push_back(rope_json(ropes, i));
+  for (std::size_t i = 0; i < ropes.ropes.size(); ++i) {
+    json["ropes"].push_back(rope_json(ropes, i));
+    if (!tracked.numbers.empty()) json["ropes"].back()["number"] = tracked.numbers[i];
+  }
+  if (!tracked.numbers.empty()) json["missing"] = tracked.missing;
   json["parting_ms"] = number(ropes.parting_ms);
   json["ropes_ms"] = number(ropes.total_ms);
   return text_of(json);

@@ -6,6 +6,7 @@
 
 #include "flowdlo/estimate.hpp"
 #include "flowdlo/result.hpp"
+#include "flowdlo/tracker.hpp"
 
 namespace flowdlo::tools {
 
@@ -23,9 +24,10 @@ struct Provenance {
 /// JSON text with `status` "ok"; numbers that are not finite are null.
 [[nodiscard]] std::string estimate_json(const Estimate& estimate, const Provenance& provenance);
 
-/// The same of the first rope, and `ropes`, longest first: the nodes of each, whether it is closed,
-/// and where it passes over or under which.
-[[nodiscard]] std::string ropes_json(const Ropes& ropes, const Provenance& provenance);
+/// The same of the first rope, and `ropes`: the nodes of each, whether it is closed, and where it
+/// passes over or under which. Of a stream also the `number` that each keeps, and those that are
+/// `missing`.
+[[nodiscard]] std::string ropes_json(const TrackedRopes& tracked, const Provenance& provenance);
 
 /// JSON text with `status` the code's name and `message` the error's sentence.
 [[nodiscard]] std::string failure_json(const Error& error, const Provenance& provenance);

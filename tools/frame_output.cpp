@@ -61,16 +61,16 @@ Result<void> put_all(files::FolderUpdate& update, const Frame& frame, const Esti
   return update.put(kKeyFile, estimate_json(estimate, provenance));
 }
 
-Result<void> put_all(files::FolderUpdate& update, const Frame& frame, const Ropes& ropes,
+Result<void> put_all(files::FolderUpdate& update, const Frame& frame, const TrackedRopes& tracked,
                      const Provenance& provenance) {
-  for (std::size_t rope = 0; rope < ropes.ropes.size(); ++rope) {
-    const auto text = frame::format_centerline(ropes.ropes[rope].nodes);
+  for (std::size_t rope = 0; rope < tracked.found.ropes.size(); ++rope) {
+    const auto text = frame::format_centerline(tracked.found.ropes[rope].nodes);
     if (auto done = update.put(centerline_name(rope), text); !done) return done;
   }
-  const auto picture = support::encode_png(draw_overlay(frame, ropes, provenance.device));
+  const auto picture = support::encode_png(draw_overlay(frame, tracked, provenance.device));
   if (!picture) return picture.error();
   if (auto done = update.put("overlay.png", *picture); !done) return done;
-  return update.put(kKeyFile, ropes_json(ropes, provenance));
+  return update.put(kKeyFile, ropes_json(tracked, provenance));
 }
 
 }  // namespace
@@ -97,13 +97,13 @@ Result<void> write_estimate(const fs::path& folder, const Frame& frame, const Es
   return done ? update->commit() : done;
 }
 
-Result<void> write_ropes(const fs::path& folder, const Frame& frame, const Ropes& ropes,
+Result<void> write_ropes(const fs::path& folder, const Frame& frame, const TrackedRopes& tracked,
                          const Provenance& provenance, Durability durability,
                          const files::SystemCalls& calls) {
   if (auto done = forget_results(folder, durability, calls); !done) return done;
   auto update = files::FolderUpdate::begin(folder, kKeyFile, durability, calls);
   if (!update) return update.error();
-  auto done = put_all(*update, frame, ropes, provenance);
+  auto done = put_all(*update, frame, tracked, provenance);
   return done ? update->commit() : done;
 }
 

@@ -11,6 +11,7 @@
 #include "flowdlo/estimate.hpp"
 #include "flowdlo/frame.hpp"
 #include "flowdlo/result.hpp"
+#include "flowdlo/tracker.hpp"
 
 namespace flowdlo::tools {
 
@@ -36,9 +37,9 @@ struct Extras {
                                           const files::SystemCalls& calls = files::kernel());
 
 /// The same of several ropes: centerline.csv is the first one's, centerline_1.csv and so on the
-/// others'.
+/// others'. Without numbers they are of a frame on its own.
 [[nodiscard]] Result<void> write_ropes(const std::filesystem::path& folder, const Frame& frame,
-                                       const Ropes& ropes, const Provenance& provenance,
+                                       const TrackedRopes& tracked, const Provenance& provenance,
                                        Durability durability = Durability::kSynced,
                                        const files::SystemCalls& calls = files::kernel());
 

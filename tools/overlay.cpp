@@ -179,7 +179,9 @@ support::Picture draw_failure(const Frame& frame, const std::string& words) {
   return ground.picture;
 }
 
-support::Picture draw_overlay(const Frame& frame, const Ropes& ropes, const std::string& device) {
+support::Picture draw_overlay(const Frame& frame, const TrackedRopes& tracked,
+                              const std::string& device) {
+  const Ropes& ropes = tracked.found;
   Ground ground = ground_of(frame);
   const image::Size size = ground.picture.size();
   const OverlayStyle style(size.width);
@@ -190,8 +192,8 @@ support::Picture draw_overlay(const Frame& frame, const Ropes& ropes, const std:
   }
   for (std::size_t i = curves.size(); i-- > 0;) {  // the longest last: above the others
     if (!curves[i].drawable()) continue;
-    draw_curve(pen, curves[i], ropes.ropes[i], style, paint_of(i));
-    if (ropes.ropes[i].closed) close(pen, curves[i], style, paint_of(i));
+    draw_curve(pen, curves[i], ropes.ropes[i], style, paint_of(paint_index(tracked, i)));
+    if (ropes.ropes[i].closed) close(pen, curves[i], style, paint_of(paint_index(tracked, i)));
   }
   for (const RopeCrossing& crossing : ropes.crossings) {
     const auto over = static_cast<std::size_t>(crossing.over);
@@ -199,17 +201,18 @@ support::Picture draw_overlay(const Frame& frame, const Ropes& ropes, const std:
     constexpr float kUsualSine = 0.7F;
     draw_above(pen, curves[over], ropes.ropes[over],
                position_at(ropes.ropes[over].nodes, crossing.over_at_m), kUsualSine, style,
-               paint_of(over));
+               paint_of(paint_index(tracked, over)));
   }
   for (std::size_t i = 0; i < curves.size(); ++i) {
     if (!curves[i].drawable() || ropes.ropes[i].closed) continue;
     const auto markers = end_markers(curves[i], size, style);
-    const std::string number = std::to_string(i);
-    draw_marker(pen, markers.first, number, rope_color(i), kRimColor, style);
-    draw_marker(pen, markers.last, number, kRimColor, rope_color(i), style);
+    const std::string name = std::to_string(shown_number(tracked, i));
+    const Color& color = rope_color(paint_index(tracked, i));
+    draw_marker(pen, markers.first, name, color, kRimColor, style);
+    draw_marker(pen, markers.last, name, kRimColor, color, style);
     mark_drawn(ground.rope, curves[i], markers, style);
   }
-  draw_legend(ground.picture, ground.rope, ropes, device, style);
+  draw_legend(ground.picture, ground.rope, tracked, device, style);
   return ground.picture;
 }
 

@@ -5,6 +5,7 @@
 
 #include "flowdlo/estimate.hpp"
 #include "flowdlo/frame.hpp"
+#include "flowdlo/tracker.hpp"
 #include "picture.hpp"
 
 namespace flowdlo::tools {
@@ -26,9 +27,10 @@ namespace flowdlo::tools {
 [[nodiscard]] support::Picture draw_failure(const Frame& frame, const std::string& words);
 
 /// draw_overlay of several ropes, each in its own colour, darker where nothing visible backs it,
-/// its ends numbered as the ropes are; a ring has none. At each crossing the upper rope is drawn
-/// over the other.
-[[nodiscard]] support::Picture draw_overlay(const Frame& frame, const Ropes& ropes,
+/// its ends numbered; a ring has none. Colours and numbers are those that ropes keep through a
+/// stream, and of a frame on its own their indices. At each crossing the upper rope is drawn over
+/// the other.
+[[nodiscard]] support::Picture draw_overlay(const Frame& frame, const TrackedRopes& tracked,
                                             const std::string& device);
 
 }  // namespace flowdlo::tools

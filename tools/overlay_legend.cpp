@@ -68,7 +68,8 @@ Legend legend_of(const Estimate& estimate, const std::string& device) {
            {kBridgedColor, fmt::format("bridged {}", kNodes - supported)}}};
 }
 
-Legend legend_of(const Ropes& ropes, const std::string& device) {
+Legend legend_of(const TrackedRopes& tracked, const std::string& device) {
+  const Ropes& ropes = tracked.found;
   float least = 1;
   for (const Estimate& rope : ropes.ropes) least = std::min(least, rope.confidence);
   const auto counted = [](std::size_t count, const char* what) {
@@ -80,7 +81,8 @@ Legend legend_of(const Ropes& ropes, const std::string& device) {
        fmt::format("{}   {:.0f} ms", shown(device), ropes.total_ms)},
       {}};
   for (std::size_t i = 0; i < std::min(ropes.ropes.size(), kMostSwatches); ++i) {
-    legend.swatches.push_back({rope_color(i), fmt::format("{}", i)});
+    legend.swatches.push_back(
+        {rope_color(paint_index(tracked, i)), fmt::format("{}", shown_number(tracked, i))});
   }
   return legend;
 }
@@ -194,9 +196,18 @@ void draw_legend(support::Picture& picture, const image::Mask& rope, const std::
   draw(Legend{{words}, {}}, picture, rope, style);
 }
 
-void draw_legend(support::Picture& picture, const image::Mask& rope, const Ropes& ropes,
+void draw_legend(support::Picture& picture, const image::Mask& rope, const TrackedRopes& tracked,
                  const std::string& device, const OverlayStyle& style) {
-  draw(legend_of(ropes, device), picture, rope, style);
+  draw(legend_of(tracked, device), picture, rope, style);
+}
+
+int shown_number(const TrackedRopes& tracked, std::size_t rope) {
+  return tracked.numbers.empty() ? static_cast<int>(rope) : tracked.numbers[rope];
+}
+
+std::size_t paint_index(const TrackedRopes& tracked, std::size_t rope) {
+  const int first = tracked.numbers.empty() ? 0 : 1;
+  return static_cast<std::size_t>(shown_number(tracked, rope) - first);
 }
 
 }  // namespace flowdlo::tools

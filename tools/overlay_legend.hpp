@@ -1,9 +1,11 @@
 // The overlay's legend: source, confidence, mask agreement, device, and what the colours mean.
 #pragma once
 
+#include <cstddef>
 #include <string>
 
 #include "flowdlo/estimate.hpp"
+#include "flowdlo/tracker.hpp"
 #include "overlay_style.hpp"
 #include "picture.hpp"
 
@@ -20,7 +22,13 @@ void draw_legend(support::Picture& picture, const image::Mask& rope, const std::
 
 /// The same of several ropes: how many, how sure of the least sure one, the device, and each rope's
 /// colour by its number.
-void draw_legend(support::Picture& picture, const image::Mask& rope, const Ropes& ropes,
+void draw_legend(support::Picture& picture, const image::Mask& rope, const TrackedRopes& tracked,
                  const std::string& device, const OverlayStyle& style);
+
+/// The number that a rope keeps through a stream; of a frame on its own, its index.
+[[nodiscard]] int shown_number(const TrackedRopes& tracked, std::size_t rope);
+
+/// Which of `rope_color` a rope has.
+[[nodiscard]] std::size_t paint_index(const TrackedRopes& tracked, std::size_t rope);
 
 }  // namespace flowdlo::tools

@@ -120,10 +120,9 @@ Result<void> create(const flowdlo_config* given, flowdlo_estimator** out) {
                                name, value)};
     }
   }
-  auto estimator = Estimator::create(config_of(config));
-  if (!estimator) return estimator.error();
-  *out = std::make_unique<flowdlo_estimator>(flowdlo_estimator{*std::move(estimator), {}, {}, {}})
-             .release();
+  auto tracker = Tracker::create(config_of(config));
+  if (!tracker) return tracker.error();
+  *out = std::make_unique<flowdlo_estimator>(flowdlo_estimator{*std::move(tracker)}).release();
   return {};
 }
 
@@ -132,12 +131,12 @@ Result<void> estimate(flowdlo_estimator* estimator, const flowdlo_frame* given,
   if (const auto there = check_there(estimator, "flowdlo_estimator_estimate: estimator"); !there) {
     return there.error();
   }
-  estimator->forget();
+  estimator->clear();
   if (const auto fits = check_size(given); !fits) return fits.error();
   if (const auto fits = check_size(out); !fits) return fits.error();
   const auto frame = frame_of(read(given, default_frame()), estimator->copies);
   if (!frame) return frame.error();
-  auto result = estimator->estimator.estimate(*frame);
+  auto result = estimator->estimator().estimate(*frame);
   if (!result) return result.error();
   write(out, out->struct_size, plain(*result));
   estimator->alternatives = std::move(result->alternatives);
@@ -303,9 +302,9 @@ flowdlo_status flowdlo_estimator_alternative(const flowdlo_estimator* estimator,
 }
 
 const char* flowdlo_estimator_device(const flowdlo_estimator* estimator) {
-  return estimator == nullptr ? "" : estimator->estimator.device().c_str();
+  return estimator == nullptr ? "" : estimator->tracker.estimator()->device().c_str();
 }
 
 const char* flowdlo_estimator_field_device(const flowdlo_estimator* estimator) {
-  return estimator == nullptr ? "" : estimator->estimator.field_device().c_str();
+  return estimator == nullptr ? "" : estimator->tracker.estimator()->field_device().c_str();
 }

@@ -84,6 +84,14 @@ struct Kind<flowdlo_hints> {
 };
 
 template <>
+struct Kind<flowdlo_tracking> {
+  static constexpr const char* kName = "flowdlo_tracking";
+  static constexpr std::size_t kFirstBytes =
+      offsetof(flowdlo_tracking, reserved) + sizeof(flowdlo_tracking::reserved);
+  static_assert(sizeof(flowdlo_tracking) == kFirstBytes);
+};
+
+template <>
 struct Kind<flowdlo_crossing> {
   static constexpr const char* kName = "flowdlo_crossing";
   static constexpr std::size_t kFirstBytes =

@@ -22,8 +22,8 @@ enum class Source { kPrediction, kPrior };
 
 /// Which of all candidates the nodes are.
 enum class Origin {
-  kFirstPrior,    ///< the best prior of the reading that counts: of the strand field where that is
-                  ///< sure, otherwise of the mask
+  kFirstPrior,    ///< the best prior of the first reading: of the strand field; of the mask where
+                  ///< there is no field or it shows nothing
   kRunnerUp,      ///< another prior of that reading
   kOtherReading,  ///< the prior of a way that only a further reading found
   kFrameBefore,   ///< Hints::previous: the rope lies where it lay

@@ -251,8 +251,8 @@ enum {
 /* What flowdlo_config.budget_ms left no time for: bits of flowdlo_estimate.left_out. */
 enum {
   FLOWDLO_LEFT_OUT_MODEL = 1,   /* the model's draws: the estimate is a prior */
-  FLOWDLO_LEFT_OUT_FIELD = 2,   /* the strand field, though there was doubt */
-  FLOWDLO_LEFT_OUT_READINGS = 4 /* a closer look and the mask alone, though there was doubt */
+  FLOWDLO_LEFT_OUT_FIELD = 2,   /* the strand field: the mask alone was read */
+  FLOWDLO_LEFT_OUT_READINGS = 4 /* a closer look or the mask alone, though there was doubt */
 };
 
 /* The names that JSON, Python and ROS give to these values: "prior", "runner_up", "no_rope",
@@ -405,6 +405,51 @@ FLOWDLO_EXPORT flowdlo_status flowdlo_estimator_crossing(const flowdlo_estimator
  * frame, or of its region of interest; `count` is height x width. */
 FLOWDLO_EXPORT flowdlo_status flowdlo_estimator_instances(const flowdlo_estimator* estimator,
                                                           uint16_t* instances, size_t count);
+
+/* ---- Streams ---- */
+
+/* flowdlo::TrackerConfig of <flowdlo/tracker.hpp>, which says more of each field. */
+typedef struct flowdlo_tracking {
+  size_t struct_size;  /* bytes; flowdlo_tracking_init */
+  double most_moved_m; /* a rope that moved farther from one frame to the next is another; over 0 */
+  int32_t patience;    /* frames that a rope may be missing from and keep its number */
+  int32_t reserved;    /* 0 */
+} flowdlo_tracking;
+
+/* Fills `tracking` with the library's defaults. `struct_size` is sizeof(flowdlo_tracking). */
+FLOWDLO_EXPORT flowdlo_status flowdlo_tracking_init(flowdlo_tracking* tracking, size_t struct_size);
+
+/* From the next tracked frame on. Fails with FLOWDLO_BAD_INPUT, and then changes nothing. */
+FLOWDLO_EXPORT flowdlo_status flowdlo_estimator_set_tracking(flowdlo_estimator* estimator,
+                                                             const flowdlo_tracking* tracking);
+
+/* The next frame of a stream of one rope: as flowdlo_estimator_estimate_with_hints, where the
+ * estimate of the tracked frame before is `previous`, unless `hints` has one. `hints` may be NULL. */
+FLOWDLO_EXPORT flowdlo_status flowdlo_estimator_track(flowdlo_estimator* estimator,
+                                                      const flowdlo_frame* frame,
+                                                      const flowdlo_hints* hints,
+                                                      flowdlo_estimate* estimate);
+
+/* The next frame of a stream of several ropes: as flowdlo_estimator_estimate_ropes, but each rope
+ * keeps its number and the order of its ends, and flowdlo_estimator_rope hands them out by number.
+ * `missing` are ropes that this frame does not show and that are still waited for. `crossings` and
+ * `missing` may be NULL. */
+FLOWDLO_EXPORT flowdlo_status flowdlo_estimator_track_ropes(flowdlo_estimator* estimator,
+                                                            const flowdlo_frame* frame,
+                                                            int32_t* ropes, int32_t* crossings,
+                                                            int32_t* missing);
+
+/* The number of rope `index` of the last flowdlo_estimator_track_ropes: from 1 in the order of first
+ * sight; none is given twice. */
+FLOWDLO_EXPORT flowdlo_status flowdlo_estimator_rope_number(const flowdlo_estimator* estimator,
+                                                            int32_t index, int32_t* number);
+
+/* The number of missing rope `index` of it. */
+FLOWDLO_EXPORT flowdlo_status flowdlo_estimator_missing_rope(const flowdlo_estimator* estimator,
+                                                             int32_t index, int32_t* number);
+
+/* Forgets the ropes of the frames before; numbers go on from where they were. */
+FLOWDLO_EXPORT flowdlo_status flowdlo_estimator_forget(flowdlo_estimator* estimator);
 
 /* "cpu", or the name of the Vulkan device in use; "" for NULL. Valid until the estimator's next
  * estimate, or its end. */

@@ -11,5 +11,6 @@
 #include "flowdlo/hints.hpp"         // IWYU pragma: export
 #include "flowdlo/mask.hpp"          // IWYU pragma: export
 #include "flowdlo/result.hpp"        // IWYU pragma: export
+#include "flowdlo/tracker.hpp"       // IWYU pragma: export
 #include "flowdlo/version.hpp"       // IWYU pragma: export
 #include "flowdlo/weights.hpp"       // IWYU pragma: export

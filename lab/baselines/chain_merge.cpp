@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstddef>
 
-#include "baselines/hungarian.hpp"
+#include "track/cheapest_assignment.hpp"
 
 namespace flowdlo::baselines {
 namespace {
@@ -87,7 +87,7 @@ Result<Chain> merged(const std::vector<Chain>& chains, bool repaired) {
       return Error{ErrorCode::kInternal, "cost of two tips is not a number"};
     }
   }
-  return walk(chains, cheapest_assignment(cost));
+  return walk(chains, track::cheapest_assignment(cost));
 }
 
 }  // namespace flowdlo::baselines

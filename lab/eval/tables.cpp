@@ -142,7 +142,8 @@ std::string spread_table(const Subset& trials) {
 
 std::string trust_table(const Groups& groups) {
   survey::Table table({"group", "n", "under 1 cm", "mean / median / 95 %", "flips",
-                       "others with confidence < 0.5", "those under 1 cm with at least 0.5"});
+                       "of those 1 cm off or more: confidence below 0.5",
+                       "of those under 1 cm: confidence 0.5 or more"});
   for (const auto& [name, trials] : groups) {
     const Values cm = in_cm(values(trials, "estimate", &Outcome::either_index_m));
     int close = 0, trusted = 0, doubted = 0;

@@ -1,6 +1,6 @@
 // flowdlo-lab stream-report: rendered scenes that stand still, each frame with its own noise. How
 // often ends change places and curves jump, without hints and with the frame before; and what a
-// frame before does that is wrong.
+// frame before does that is wrong. Of several ropes: how often one takes another's number.
 #include <fmt/format.h>
 
 #include <CLI/App.hpp>
@@ -8,14 +8,18 @@
 #include <cstdint>
 #include <cstdio>
 #include <memory>
+#include <numeric>
 #include <opencv2/imgproc.hpp>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "command/report_commands.hpp"
 #include "command_line.hpp"
+#include "flowdlo/tracker.hpp"
 #include "geometry/polyline.hpp"
+#include "reports/rope_identity.hpp"
 #include "reports/steadiness.hpp"
 #include "survey/table.hpp"
 #include "survey/values.hpp"
@@ -33,6 +37,7 @@ struct Options {
   bool full = false;
   bool list = false;
   bool mislead = false;
+  bool ropes = false;
 };
 
 /// One scene under each condition.
@@ -128,6 +133,73 @@ Streams watch(const Options& options, std::uint64_t index, Estimator& estimator)
   return streams;
 }
 
+/// One scene of several ropes.
+struct RopeStreams {
+  int frames = 0;
+  int shown = 0;  ///< ropes that the scene has
+  int given = 0;  ///< numbers that the tracker gave
+  RopeIdentity alone;
+  RopeIdentity tracked;
+};
+
+RopeStreams watch_ropes(const Options& options, std::uint64_t index, Estimator& estimator) {
+  RopeStreams streams;
+  auto tracker = Tracker::create(std::move(estimator));
+  if (!tracker) return streams;
+  for (int k = 0; k < options.frames; ++k) {
+    synth::Render render;
+    render.frame = k;
+    render.windows = around_mask;
+    const auto scene = options.wide.make(index, render, synth::Split::kSeveral);
+    if (!scene) break;
+    streams.shown = static_cast<int>(scene->ropes.size());
+    const auto alone = tracker->estimator()->estimate_ropes(scene->frame());
+    const auto tracked = tracker->estimate_ropes(scene->frame());
+    if (!alone || !tracked) continue;
+    ++streams.frames;
+    std::vector<int> indices(alone->ropes.size());
+    std::iota(indices.begin(), indices.end(), 0);
+    streams.alone.add(alone->ropes, indices);
+    streams.tracked.add(tracked->found.ropes, tracked->numbers);
+    for (const int number : tracked->numbers) streams.given = std::max(streams.given, number);
+  }
+  estimator = std::move(*tracker->estimator());
+  return streams;
+}
+
+int report_ropes(const Options& options) {
+  const auto all = survey::over<RopeStreams>(
+      options.wide, [&] { return survey::one_estimator(options.weights, Quality::kFast, 0); },
+      [&](Estimator& estimator, std::uint64_t index) -> Result<RopeStreams> {
+        RopeStreams streams = watch_ropes(options, index, estimator);
+        if (options.list) {
+          fmt::print(stderr, "{}: {} ropes, {} numbers given; alone {} mistaken, tracked {}\n",
+                     index, streams.shown, streams.given, streams.alone.mistaken,
+                     streams.tracked.mistaken);
+        }
+        return streams;
+      });
+  if (all.empty()) return 1;
+  RopeStreams sum;
+  for (const RopeStreams& one : all) {
+    sum.frames += one.frames;
+    sum.shown += one.shown;
+    sum.given += one.given;
+    sum.alone.add(one.alone);
+    sum.tracked.add(one.tracked);
+  }
+  survey::Table table(
+      {"told by", "ropes", "another rope's number", "ends exchanged", "rings begun elsewhere"});
+  for (const auto& [name, of] :
+       {std::pair("length, longest first", &sum.alone), std::pair("number", &sum.tracked)}) {
+    table.add({name, std::to_string(of->ropes), std::to_string(of->mistaken),
+               std::to_string(of->exchanged), std::to_string(of->begun)});
+  }
+  fmt::print("{}{} frames of {} scenes; of their {} ropes {} numbers were given\n", table.text(),
+             sum.frames, all.size(), sum.shown, sum.given);
+  return 0;
+}
+
 void tell(std::uint64_t index, const Streams& s) {
   fmt::print(stderr, "{} {}: alone {} exchanged {} jumps, previous {} and {}, {} switched\n", index,
              s.scenario, s.alone.exchanged, s.alone.jumps, s.previous.exchanged, s.previous.jumps,
@@ -193,7 +265,11 @@ void add_stream_report(CLI::App& program, support::ExitCode& exit_code) {
   app.add_flag("--mislead", options->mislead,
                "Also with a wrong frame before: the best alternative that runs elsewhere");
   app.add_flag("--list", options->list, "Every scene and every jump on stderr");
-  support::set_action(app, exit_code, [options] { return report(*options); });
+  app.add_flag("--ropes", options->ropes,
+               "Scenes of several ropes: by length as they come, and by the tracker's numbers");
+  support::set_action(app, exit_code, [options] {
+    return options->ropes ? report_ropes(*options) : report(*options);
+  });
 }
 
 }  // namespace flowdlo::lab

@@ -24,8 +24,9 @@ struct WideScenes {
   int threads = 0;  ///< scenes at a time; 0: one a core
 
   [[nodiscard]] Result<synth::SyntheticFrame> make(std::uint64_t index,
-                                                   const synth::Render& render = {}) const {
-    return synth::make_frame(synth::Split::kWide, *synth::part_of(part), 0, index, render);
+                                                   const synth::Render& render = {},
+                                                   synth::Split split = synth::Split::kWide) const {
+    return synth::make_frame(split, *synth::part_of(part), 0, index, render);
   }
 };
 
@@ -62,13 +63,14 @@ std::vector<Outcome> over(const WideScenes& scenes, const MakeTool& make_tool, c
 }
 
 /// An estimator on one thread of the CPU, as reports use them. `weights` empty: those that ship.
-inline Result<Estimator> one_estimator(const std::string& weights,
-                                       Quality quality = Quality::kFast) {
+inline Result<Estimator> one_estimator(const std::string& weights, Quality quality = Quality::kFast,
+                                       int ropes = 1) {
   Config config;
   config.weights = weights;
   config.device = "cpu";
   config.quality = quality;
   config.threads = 1;
+  config.ropes = ropes;
   config.max_width = 1920;
   config.max_height = 1080;
   return Estimator::create(config);

@@ -22,7 +22,7 @@ from .errors import (
     NoPath,
     OutOfMemory,
 )
-from .estimator import Estimator
+from .estimator import Estimator, Tracker
 from .inspection import default_config, inspect_weights, load_frame_folder, survey_devices
 from .masks import clean_mask, mask_from_color, mask_from_plane, mask_from_seeds
 from .results import (
@@ -39,6 +39,7 @@ from .results import (
     Ropes,
     TensorInfo,
     Timings,
+    TrackedRopes,
     WeightsInfo,
 )
 
@@ -68,6 +69,8 @@ __all__ = [
     "Ropes",
     "TensorInfo",
     "Timings",
+    "TrackedRopes",
+    "Tracker",
     "WeightsInfo",
     "__version__",
     "clean_mask",

@@ -40,6 +40,7 @@ class Estimator:
         intrinsics: tuple[float, float, float, float],
         color_bgr: npt.NDArray[np.uint8] | None,
         hints: dict[str, Any],
+        tracked: bool = ...,
     ) -> dict[str, Any]: ...
     def estimate_ropes(
         self,
@@ -49,6 +50,16 @@ class Estimator:
         color_bgr: npt.NDArray[np.uint8] | None,
         instances: npt.NDArray[np.uint16] | None,
     ) -> dict[str, Any]: ...
+    def track_ropes(
+        self,
+        depth_m: npt.NDArray[np.float32],
+        mask: npt.NDArray[np.uint8],
+        intrinsics: tuple[float, float, float, float],
+        color_bgr: npt.NDArray[np.uint8] | None,
+        instances: npt.NDArray[np.uint16] | None,
+    ) -> dict[str, Any]: ...
+    def configure_tracking(self, most_moved_m: float, patience: int) -> None: ...
+    def forget(self) -> None: ...
     def close(self) -> None: ...
     @property
     def device(self) -> str: ...

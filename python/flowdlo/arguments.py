@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import operator
 import os
 from typing import Any
 
@@ -140,6 +141,17 @@ def number(name: str, value: Any) -> float:
     if not _is_number(value):
         raise BadInput(f"{name}: expected a number, got {value!r}")
     return float(value)
+
+
+def whole(name: str, value: Any) -> int:
+    """An integer that C has as well."""
+    try:
+        integer = operator.index(value)
+    except TypeError:
+        raise BadInput(f"{name}: expected an integer, got {value!r}") from None
+    if not -(2**31) <= integer < 2**31:
+        raise BadInput(f"{name}: expected an integer of 32 bits, got {value!r}")
+    return integer
 
 
 def nodes(name: str, value: Any) -> npt.NDArray[np.float32]:

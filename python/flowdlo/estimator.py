@@ -19,6 +19,7 @@ from .results import (
     RopeCrossing,
     Ropes,
     Timings,
+    TrackedRopes,
 )
 
 Path = Union[str, bytes, "os.PathLike[str]", "os.PathLike[bytes]"]
@@ -144,18 +145,12 @@ class Estimator:
         Raises BadInput, NoEvidence, NoPath, DeviceLost or OutOfMemory. A rejected prediction is no
         failure: the estimate is then the prior, and `source` says so.
         """
-        frame = _frame(depth_m, mask, intrinsics, color_bgr, depth_scale)
-        hints: dict[str, Any] = {}
-        if first_end is not None:
-            hints["first_end"] = arguments.place("first_end", first_end)
-        if len(ends) > 0:
-            hints["ends"] = [arguments.place("ends", end) for end in ends]
-        if rope_length_m is not None:
-            hints["rope_length_m"] = arguments.number("rope_length_m", rope_length_m)
-        if previous is not None:
-            nodes = previous.nodes if isinstance(previous, Estimate) else previous
-            hints["previous"] = arguments.nodes("previous", nodes)
-        return _estimate(self._core.estimate(*frame, hints))
+        return _estimate(
+            self._core.estimate(
+                *_frame(depth_m, mask, intrinsics, color_bgr, depth_scale),
+                _hints(first_end, ends, rope_length_m, previous),
+            )
+        )
 
     def estimate_ropes(
         self,
@@ -176,10 +171,7 @@ class Estimator:
         """
         frame = _frame(depth_m, mask, intrinsics, color_bgr, depth_scale)
         labels = None if instances is None else arguments.labels(instances, frame[0])
-        found = self._core.estimate_ropes(*frame, labels)
-        found["ropes"] = tuple(_estimate(rope) for rope in found["ropes"])
-        found["crossings"] = tuple(RopeCrossing(**crossing) for crossing in found["crossings"])
-        return Ropes(**found)
+        return Ropes(**_ropes(self._core.estimate_ropes(*frame, labels)))
 
     @property
     def device(self) -> str:
@@ -217,6 +209,70 @@ class Estimator:
         self.close()
 
 
+class Tracker(Estimator):
+    """An estimator for a stream of frames: each rope keeps its number, and its nodes their order.
+
+    most_moved_m: metres; a rope that moved farther from one frame to the next is another rope.
+    patience: frames that a rope may be missing from and keep its number.
+
+    Every other argument is Estimator's. One tracker for each camera. Raises as Estimator does.
+    """
+
+    def __init__(
+        self, *, most_moved_m: float = 0.1, patience: int = 30, **estimator: Any
+    ) -> None:
+        super().__init__(**estimator)
+        self._core.configure_tracking(
+            arguments.number("most_moved_m", most_moved_m), arguments.whole("patience", patience)
+        )
+
+    def estimate(
+        self,
+        depth_m: npt.ArrayLike,
+        mask: npt.ArrayLike,
+        intrinsics: Any,
+        color_bgr: npt.ArrayLike | None = None,
+        *,
+        depth_scale: float | None = None,
+        first_end: npt.ArrayLike | None = None,
+        ends: Sequence[npt.ArrayLike] = (),
+        rope_length_m: float | None = None,
+        previous: Estimate | npt.ArrayLike | None = None,
+    ) -> Estimate:
+        """The rope in the stream's next frame: Estimator.estimate, and `previous`, if it is left
+        out, is the estimate of the frame before. After a frame that raised, the one before it counts;
+        after more than `patience` of them, none.
+        """
+        return _estimate(
+            self._core.estimate(
+                *_frame(depth_m, mask, intrinsics, color_bgr, depth_scale),
+                _hints(first_end, ends, rope_length_m, previous),
+                True,
+            )
+        )
+
+    def estimate_ropes(
+        self,
+        depth_m: npt.ArrayLike,
+        mask: npt.ArrayLike,
+        intrinsics: Any,
+        color_bgr: npt.ArrayLike | None = None,
+        *,
+        depth_scale: float | None = None,
+        instances: npt.ArrayLike | None = None,
+    ) -> TrackedRopes:
+        """The ropes in the stream's next frame: Estimator.estimate_ropes, by number. Which rope is
+        which is decided for all at once, so that they move least in total.
+        """
+        frame = _frame(depth_m, mask, intrinsics, color_bgr, depth_scale)
+        labels = None if instances is None else arguments.labels(instances, frame[0])
+        return TrackedRopes(**_ropes(self._core.track_ropes(*frame, labels)))
+
+    def forget(self) -> None:
+        """Forgets the ropes of the frames before; numbers go on from where they were."""
+        self._core.forget()
+
+
 def _frame(
     depth_m: npt.ArrayLike,
     mask: npt.ArrayLike,
@@ -234,6 +290,31 @@ def _frame(
     color = arguments.color(color_bgr)
     arguments.same_size(metres, rope, color)
     return metres, rope, arguments.intrinsics(intrinsics), color
+
+
+def _hints(
+    first_end: npt.ArrayLike | None,
+    ends: Sequence[npt.ArrayLike],
+    rope_length_m: float | None,
+    previous: Estimate | npt.ArrayLike | None,
+) -> dict[str, Any]:
+    hints: dict[str, Any] = {}
+    if first_end is not None:
+        hints["first_end"] = arguments.place("first_end", first_end)
+    if len(ends) > 0:
+        hints["ends"] = [arguments.place("ends", end) for end in ends]
+    if rope_length_m is not None:
+        hints["rope_length_m"] = arguments.number("rope_length_m", rope_length_m)
+    if previous is not None:
+        nodes = previous.nodes if isinstance(previous, Estimate) else previous
+        hints["previous"] = arguments.nodes("previous", nodes)
+    return hints
+
+
+def _ropes(found: dict[str, Any]) -> dict[str, Any]:
+    found["ropes"] = tuple(_estimate(rope) for rope in found["ropes"])
+    found["crossings"] = tuple(RopeCrossing(**crossing) for crossing in found["crossings"])
+    return found
 
 
 def _estimate(found: dict[str, Any]) -> Estimate:

@@ -172,6 +172,18 @@ class Ropes:
 
 
 @dataclass(frozen=True, eq=False)
+class TrackedRopes(Ropes):
+    """The ropes of one frame of a stream: `ropes` by number, their nodes in the order of before.
+
+    numbers: of each rope, from 1 in the order of first sight; none is given twice.
+    missing: numbers of the ropes that this frame does not show and that are still waited for.
+    """
+
+    numbers: tuple[int, ...]
+    missing: tuple[int, ...]
+
+
+@dataclass(frozen=True, eq=False)
 class FrameFolder:
     """A frame read from disk.
 

@@ -119,6 +119,13 @@ Rope rope_of(const flowdlo::Estimate& estimate) {
   return rope;
 }
 
+std::optional<flowdlo::Quality> quality_of(const std::string& name) {
+  if (name == "full") return flowdlo::Quality::kFull;
+  if (name == "fast") return flowdlo::Quality::kFast;
+  if (name == "auto") return flowdlo::Quality::kAuto;
+  return std::nullopt;
+}
+
 /// The mask that the choices ask for, of a frame that has none.
 flowdlo::Mask made_mask(const flowdlo::Frame& frame, const Choices& choices) {
   std::vector<flowdlo::Result<flowdlo::Mask>> ways;
@@ -143,33 +150,53 @@ flowdlo::Mask made_mask(const flowdlo::Frame& frame, const Choices& choices) {
 }  // namespace
 
 struct RopeCore::Impl {
-  std::optional<flowdlo::Estimator> estimator;
+  std::optional<flowdlo::Tracker> tracker;
   int ropes = 1;
-  std::optional<flowdlo::Centerline> previous;
   std::optional<flowdlo::Pixel> end;
 
   Seen estimate(const flowdlo::Frame& frame, bool keep_order) {
-    Seen seen;
-    if (ropes != 1) {
-      const auto all = estimator->estimate_ropes(frame);
-      if (!all) return {.error = all.error().message};
-      for (const auto& one : all->ropes) seen.ropes.push_back(rope_of(one));
-      for (const auto& at : all->crossings) {
-        seen.crossings.push_back({static_cast<std::uint32_t>(at.over),
-                                  static_cast<std::uint32_t>(at.under), at.over_at_m, at.under_at_m,
-                                  at.apart_m});
-      }
-      seen.total_ms = all->total_ms;
-      return seen;
-    }
+    return ropes == 1 ? estimate_one(frame, keep_order) : estimate_ropes(frame, keep_order);
+  }
+
+  Seen estimate_one(const flowdlo::Frame& frame, bool keep_order) {
+    if (!keep_order) tracker->forget();
     flowdlo::Hints hints;
     if (end) hints.first_end = *end;
-    if (keep_order) hints.previous = previous;
-    const auto one = estimator->estimate(frame, hints);
+    const auto one = tracker->estimate(frame, hints);
     if (!one) return {.error = one.error().message};
-    previous = one->nodes;
+    Seen seen;
     seen.ropes.push_back(rope_of(*one));
+    seen.ropes.back().number = keep_order ? 1 : 0;
     seen.total_ms = one->timings.total_ms;
+    return seen;
+  }
+
+  Seen estimate_ropes(const flowdlo::Frame& frame, bool keep_order) {
+    flowdlo::Ropes all;
+    Seen seen;
+    std::vector<int> numbers;
+    if (keep_order) {
+      auto tracked = tracker->estimate_ropes(frame);
+      if (!tracked) return {.error = tracked.error().message};
+      all = std::move(tracked->found);
+      numbers = std::move(tracked->numbers);
+      seen.missing.assign(tracked->missing.begin(), tracked->missing.end());
+    } else {
+      auto alone = tracker->estimator()->estimate_ropes(frame);
+      if (!alone) return {.error = alone.error().message};
+      all = *std::move(alone);
+      numbers.assign(all.ropes.size(), 0);
+    }
+    for (std::size_t i = 0; i < all.ropes.size(); ++i) {
+      seen.ropes.push_back(rope_of(all.ropes[i]));
+      seen.ropes.back().number = static_cast<std::uint32_t>(numbers[i]);
+    }
+    for (const auto& at : all.crossings) {
+      seen.crossings.push_back({static_cast<std::uint32_t>(at.over),
+                                static_cast<std::uint32_t>(at.under), at.over_at_m, at.under_at_m,
+                                at.apart_m});
+    }
+    seen.total_ms = all.total_ms;
     return seen;
   }
 };
@@ -178,30 +205,30 @@ RopeCore::RopeCore(const Setup& setup, std::string& error) : impl_(std::make_uni
   flowdlo::Config config;
   config.weights = setup.weights;
   config.device = setup.device;
-  config.quality = setup.quality == "full" ? flowdlo::Quality::kFull : flowdlo::Quality::kFast;
+  const auto quality = quality_of(setup.quality);
+  error = quality ? "" : "~quality: expected full, fast or auto, got \"" + setup.quality + "\"";
+  if (!quality) return;
+  config.quality = *quality;
   config.ropes = setup.ropes;
   config.threads = setup.threads;
   config.rope_length_m = setup.rope_length_m;
   config.budget_ms = setup.budget_ms;
   config.seed = setup.seed;
-  error = setup.quality == "full" || setup.quality == "fast"
-              ? ""
-              : "~quality: expected full or fast, got \"" + setup.quality + "\"";
-  if (!error.empty()) return;
-  auto made = flowdlo::Estimator::create(config);
+  auto made = flowdlo::Tracker::create(
+      config, {.most_moved_m = setup.most_moved_m, .patience = setup.patience});
   if (!made) {
     error = made.error().message;
     return;
   }
   impl_->ropes = setup.ropes;
-  impl_->estimator = *std::move(made);
+  impl_->tracker = *std::move(made);
 }
 
 RopeCore::~RopeCore() = default;
 
 Seen RopeCore::see(const Image& depth, const Image& mask, const Image& color, const Camera& camera,
                    const Choices& choices) {
-  if (!impl_->estimator) return {.error = "the estimator was not made"};
+  if (!impl_->tracker) return {.error = "the estimator was not made"};
   try {
     const auto depth_m = depth_of(depth);
     const auto color_bgr = color.data == nullptr ? std::vector<std::uint8_t>{} : color_of(color);
@@ -227,7 +254,7 @@ Seen RopeCore::see(const Image& depth, const Image& mask, const Image& color, co
 }
 
 void RopeCore::reset() {
-  impl_->previous.reset();
+  if (impl_->tracker) impl_->tracker->forget();
   impl_->end.reset();
 }
 

@@ -35,24 +35,27 @@ struct Camera {
 struct Setup {
   std::string weights;  ///< empty: those that ship
   std::string device = "auto";
-  std::string quality = "fast";  ///< "full" or "fast"
+  std::string quality = "auto";  ///< "full", "fast" or "auto"
   int ropes = 1;                 ///< 0: as many as there are
   int threads = 0;
   double rope_length_m = 0;
   double budget_ms = 0;
   std::uint64_t seed = 0;
+  double most_moved_m = 0.1;  ///< flowdlo::TrackerConfig's
+  int patience = 30;
 };
 
 /// What may change from frame to frame.
 struct Choices {
   bool rectified = false;         ///< P of the camera info holds, not K and D
-  bool keep_order = true;         ///< the frame before keeps the order of the ends
+  bool keep_order = true;         ///< ropes keep their numbers, and their ends their order
   bool table = false;             ///< without a mask: what stands out of the table
   std::vector<int> rope_color{};  ///< without a mask: red, green, blue of the rope, 0..255
   double color_tolerance = 0.12;
 };
 
 struct Rope {
+  std::uint32_t number = 0;  ///< that it keeps through the stream, from 1; 0: it has none
   std::vector<std::array<float, 3>> nodes;  ///< 64, metres, camera frame
   std::vector<float> sigma_m;               ///< 64
   std::vector<bool> support;                ///< 64
@@ -75,10 +78,11 @@ struct Seen {
   std::string error;  ///< empty: there are ropes
   std::vector<Rope> ropes{};
   std::vector<Crossing> crossings{};
+  std::vector<std::uint32_t> missing{};  ///< numbers of ropes that are waited for
   double total_ms = 0;
 };
 
-/// One estimator and the frame before. Not for several threads at a time.
+/// One estimator and the stream so far. Not for several threads at a time.
 class RopeCore {
  public:
   /// `error` is empty where it was made.
@@ -92,7 +96,7 @@ class RopeCore {
   [[nodiscard]] Seen see(const Image& depth, const Image& mask, const Image& color,
                          const Camera& camera, const Choices& choices);
 
-  /// Forgets the frame before and the end that was set.
+  /// Forgets the ropes of the frames before and the end that was set.
   void reset();
 
   /// The end nearest to this pixel becomes node 0, until reset().

@@ -13,6 +13,7 @@
 #include "c_api/c_values.hpp"
 #include "flowdlo/estimator.hpp"
 #include "flowdlo/flowdlo.h"
+#include "flowdlo/tracker.hpp"
 #include "support/wave_frame.hpp"
 
 namespace flowdlo {
@@ -241,6 +242,88 @@ TEST(CHints, WhatCannotBeIsNamed) {
   EXPECT_EQ(flowdlo_estimator_estimate_with_hints(estimator.get(), &frame, &hints, &estimate),
             FLOWDLO_BAD_INPUT);
   EXPECT_THAT(flowdlo_last_error(), HasSubstr("flowdlo_hints_init"));
+}
+
+TEST(CTracking, RopesKeepTheirNumbersAndTheOrderOfTheirEnds) {
+  const TwoWaves both;
+  TwoWaves lower;
+  std::fill(lower.mask.begin(), lower.mask.begin() + lower.width * lower.height / 2,
+            std::uint8_t{0});
+  const Handle estimator = make(0);
+  int ropes = 0;
+  int missing = -1;
+  int number = 0;
+  flowdlo_frame frame = c_frame(both.frame());
+  ASSERT_EQ(flowdlo_estimator_track_ropes(estimator.get(), &frame, &ropes, nullptr, &missing),
+            FLOWDLO_OK)
+      << flowdlo_last_error();
+  ASSERT_EQ(ropes, 2);
+  EXPECT_EQ(missing, 0);
+  flowdlo_estimate first = empty_estimate();
+  int of_lower = -1;
+  for (int i = 0; i < ropes; ++i) {
+    flowdlo_estimate rope = empty_estimate();
+    ASSERT_EQ(flowdlo_estimator_rope(estimator.get(), i, &rope), FLOWDLO_OK);
+    ASSERT_EQ(flowdlo_estimator_rope_number(estimator.get(), i, &number), FLOWDLO_OK);
+    EXPECT_EQ(number, i + 1);
+    if (rope.nodes[0][1] < 0) continue;
+    first = rope;
+    of_lower = number;
+  }
+  frame = c_frame(lower.frame());
+  ASSERT_EQ(flowdlo_estimator_track_ropes(estimator.get(), &frame, &ropes, nullptr, &missing),
+            FLOWDLO_OK);
+  ASSERT_EQ(ropes, 1);
+  ASSERT_EQ(missing, 1);
+  ASSERT_EQ(flowdlo_estimator_rope_number(estimator.get(), 0, &number), FLOWDLO_OK);
+  EXPECT_EQ(number, of_lower);
+  ASSERT_EQ(flowdlo_estimator_missing_rope(estimator.get(), 0, &number), FLOWDLO_OK);
+  EXPECT_EQ(number, 3 - of_lower);
+  flowdlo_estimate second = empty_estimate();
+  ASSERT_EQ(flowdlo_estimator_rope(estimator.get(), 0, &second), FLOWDLO_OK);
+  EXPECT_EQ((second.nodes[0][0] < second.nodes[63][0]), (first.nodes[0][0] < first.nodes[63][0]));
+  ASSERT_EQ(flowdlo_estimator_forget(estimator.get()), FLOWDLO_OK);
+  ASSERT_EQ(flowdlo_estimator_track_ropes(estimator.get(), &frame, &ropes, nullptr, nullptr),
+            FLOWDLO_OK);
+  ASSERT_EQ(flowdlo_estimator_rope_number(estimator.get(), 0, &number), FLOWDLO_OK);
+  EXPECT_EQ(number, 3);
+}
+
+TEST(CTracking, OneRopeIsEstimatedByHeedOfTheFrameBefore) {
+  const WaveFrame wave;
+  const Handle estimator = make(1);
+  const flowdlo_frame frame = c_frame(wave.frame());
+  flowdlo_estimate plain = empty_estimate();
+  ASSERT_EQ(flowdlo_estimator_estimate(estimator.get(), &frame, &plain), FLOWDLO_OK);
+  const float* last = plain.nodes[FLOWDLO_NODES - 1];
+  flowdlo_hints hints = no_hints();
+  hints.first_end = {FLOWDLO_PLACE_POINT, {last[0], last[1], last[2]}};
+  flowdlo_estimate turned = empty_estimate();
+  ASSERT_EQ(flowdlo_estimator_track(estimator.get(), &frame, &hints, &turned), FLOWDLO_OK);
+  flowdlo_estimate next = empty_estimate();
+  ASSERT_EQ(flowdlo_estimator_track(estimator.get(), &frame, nullptr, &next), FLOWDLO_OK);
+  EXPECT_EQ(std::memcmp(next.nodes, turned.nodes, sizeof(next.nodes)), 0);
+  EXPECT_NE(std::memcmp(next.nodes, plain.nodes, sizeof(next.nodes)), 0);
+}
+
+TEST(CTracking, WhatCannotBeIsNamed) {
+  const Handle estimator = make(1);
+  flowdlo_tracking tracking;
+  ASSERT_EQ(flowdlo_tracking_init(&tracking, sizeof(tracking)), FLOWDLO_OK);
+  EXPECT_EQ(tracking.most_moved_m, TrackerConfig{}.most_moved_m);
+  EXPECT_EQ(tracking.patience, TrackerConfig{}.patience);
+  EXPECT_EQ(flowdlo_estimator_set_tracking(estimator.get(), &tracking), FLOWDLO_OK);
+  tracking.most_moved_m = 0;
+  EXPECT_EQ(flowdlo_estimator_set_tracking(estimator.get(), &tracking), FLOWDLO_BAD_INPUT);
+  EXPECT_THAT(flowdlo_last_error(), HasSubstr("most_moved_m: expected metres over 0"));
+  tracking.struct_size = 3;
+  EXPECT_EQ(flowdlo_estimator_set_tracking(estimator.get(), &tracking), FLOWDLO_BAD_INPUT);
+  EXPECT_THAT(flowdlo_last_error(), HasSubstr("flowdlo_tracking_init"));
+  int number = 0;
+  EXPECT_EQ(flowdlo_estimator_rope_number(estimator.get(), 0, &number), FLOWDLO_BAD_INPUT);
+  EXPECT_THAT(flowdlo_last_error(), HasSubstr("below the 0 of the last"));
+  EXPECT_EQ(flowdlo_estimator_missing_rope(estimator.get(), 0, nullptr), FLOWDLO_BAD_INPUT);
+  EXPECT_EQ(flowdlo_estimator_forget(nullptr), FLOWDLO_BAD_INPUT);
 }
 
 }  // namespace

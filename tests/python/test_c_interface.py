@@ -2,6 +2,8 @@
 
 import ctypes
 import os
+import re
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -13,6 +15,7 @@ LIBRARY.flowdlo_last_error.restype = ctypes.c_char_p
 LIBRARY.flowdlo_version.restype = ctypes.c_char_p
 for name in ("source", "origin", "doubt"):
     getattr(LIBRARY, f"flowdlo_{name}_name").restype = ctypes.c_char_p
+EXAMPLES = Path(os.environ["FLOWDLO_EXAMPLES"])
 PIXEL_F32, PIXEL_U16, PIXEL_U8, PIXEL_BGR8, PIXEL_RGB8 = range(1, 6)
 
 
@@ -152,3 +155,38 @@ def test_a_region_of_interest_is_the_images_part(handle, ring, estimator):
     assert_same(
         in_c, estimator.estimate(ring.depth_m[part], ring.mask[part], (fx, fy, cx - u, cy - v))
     )
+
+
+RUST_TYPES = {
+    "usize": ctypes.c_size_t,
+    "isize": ctypes.c_ssize_t,
+    "i32": ctypes.c_int32,
+    "f32": ctypes.c_float,
+    "f64": ctypes.c_double,
+    "u8": ctypes.c_uint8,
+    "*const c_void": ctypes.c_void_p,
+}
+
+
+def rust_type(words, known):
+    array = re.fullmatch(r"\[(.*); (\d+)\]", words)
+    if array:
+        return rust_type(array[1], known) * int(array[2])
+    return known[words] if words in known else RUST_TYPES[words]
+
+
+def test_the_structs_of_the_rust_example_are_those_of_the_header():
+    text = (EXAMPLES / "estimate_one_frame.rs").read_text()
+    known = {}
+    for name, body in re.findall(r"#\[repr\(C\)\]\nstruct (\w+) \{\n(.*?)\n\}", text, re.S):
+        fields = re.findall(r"^ +(\w+): (.*?),(?: //.*)?$", body, re.M)
+        assert len(fields) == len(body.splitlines()), name
+        fields = [(field, rust_type(words, known)) for field, words in fields]
+        known[name] = type(name, (ctypes.Structure,), {"_fields_": fields})
+    assert set(known) == {"Image", "Frame", "Estimate"}
+    for kind in (Image, Frame, Estimate):
+        assert ctypes.sizeof(known[kind.__name__]) == ctypes.sizeof(kind), kind
+    filled(known["Frame"], LIBRARY.flowdlo_frame_init)
+    filled(known["Estimate"], LIBRARY.flowdlo_estimate_init)
+    for field in ("nodes", "sigma_m", "support", "confidence"):
+        assert getattr(known["Estimate"], field).offset == getattr(Estimate, field).offset, field

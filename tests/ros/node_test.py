@@ -271,6 +271,18 @@ def test_an_end_that_is_set_comes_first_until_it_is_reset(master, bag):
         assert np.abs(again - before).max() < 1e-4
 
 
+def test_ropes_keep_their_numbers_until_they_are_forgotten(master, bag):
+    with Node("numbered", ropes=0, use_color=True) as node:
+        play(bag)
+        first = node.wait_for(len(STAMPS))
+        assert {tuple(r.number for r in m.ropes) for m in first} == {(1,)}
+        assert not any(m.missing for m in first)
+        assert rospy.ServiceProxy("/numbered/reset", Trigger)().success
+        play(bag)
+        later = node.wait_for(2 * len(STAMPS))[len(STAMPS) :]
+        assert {tuple(r.number for r in m.ropes) for m in later} == {(2,)}
+
+
 def test_a_color_that_is_none_is_named_when_the_node_starts(master):
     rospy.set_param("/colorless/rope_color", [300, 0, 0])
     ran = subprocess.run(

@@ -111,6 +111,29 @@ TEST(EstimateCommand, RopesAreWrittenEachAndThoseOfAnEarlierRunGo) {
   EXPECT_FALSE(estimate_json_of(scratch.path(), "rope").contains("ropes"));
 }
 
+TEST(EstimateCommand, RopesOfAStreamKeepTheirNumbers) {
+  const TemporaryFolder scratch;
+  const auto both = write_frame(scratch.path(), "both");
+  add_rope(both, false);
+  const auto one = write_frame(scratch.path(), "one");
+  const auto again = write_frame(scratch.path(), "again");
+  add_rope(again, false);
+  const auto outcome = run_estimate(
+      scratch.path(), {both.string(), one.string(), again.string(), "--ropes", "auto", "--stream"});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const auto last = estimate_json_of(scratch.path(), "again");
+  EXPECT_EQ(last["ropes"][0]["number"], 1);
+  EXPECT_EQ(last["ropes"][1]["number"], 2);
+  EXPECT_TRUE(last["missing"].empty());
+  const auto middle = estimate_json_of(scratch.path(), "one");
+  ASSERT_EQ(middle["ropes"].size(), 1U);
+  EXPECT_EQ(middle["ropes"][0]["number"], 1);
+  ASSERT_EQ(middle["missing"].size(), 1U);
+  EXPECT_EQ(middle["missing"][0], 2);
+  ASSERT_EQ(run_estimate(scratch.path(), {both.string(), "--ropes", "auto"}).exit_code, 0);
+  EXPECT_FALSE(estimate_json_of(scratch.path(), "both").contains("missing"));
+}
+
 TEST(EstimateCommand, LabelsBesideAFrameTellItsRopes) {
   const TemporaryFolder scratch;
   const auto folder = write_frame(scratch.path());

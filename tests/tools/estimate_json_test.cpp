@@ -155,8 +155,7 @@ TEST(EstimateJson, BytesThatAreNoTextDoNotBreakIt) {
 }
 
 TEST(RopesJson, TopLevelIsTheFirstRopesAndEachRopeHasTheFieldsOfTheContract) {
-  const auto ropes = test::sample_ropes();
-  const auto json = Json::parse(ropes_json(ropes, kProvenance));
+  const auto json = Json::parse(ropes_json({test::sample_ropes(), {}, {}}, kProvenance));
   EXPECT_EQ(json["status"], "ok");
   EXPECT_EQ(json["closed"], false);
   EXPECT_DOUBLE_EQ(json["confidence"], 0.8);
@@ -174,8 +173,18 @@ TEST(RopesJson, TopLevelIsTheFirstRopesAndEachRopeHasTheFieldsOfTheContract) {
   EXPECT_NEAR(json["ropes"][1]["nodes"][0][1], -0.1, 1e-6);
 }
 
+TEST(RopesJson, OfAStreamHasTheNumbersThatRopesKeep) {
+  const auto json = Json::parse(ropes_json({test::sample_ropes(), {2, 5}, {1, 4}}, kProvenance));
+  EXPECT_EQ(json["ropes"][0]["number"], 2);
+  EXPECT_EQ(json["ropes"][1]["number"], 5);
+  EXPECT_EQ(json["missing"], Json::array({1, 4}));
+  const auto alone = Json::parse(ropes_json({test::sample_ropes(), {}, {}}, kProvenance));
+  EXPECT_FALSE(alone["ropes"][0].contains("number"));
+  EXPECT_FALSE(alone.contains("missing"));
+}
+
 TEST(RopesJson, ACrossingIsToldOfByBothOfItsRopes) {
-  const auto json = Json::parse(ropes_json(test::sample_ropes(), kProvenance));
+  const auto json = Json::parse(ropes_json({test::sample_ropes(), {}, {}}, kProvenance));
   const auto& below = json["ropes"][0]["crossings"];
   const auto& above = json["ropes"][1]["crossings"];
   ASSERT_EQ(below.size(), 1U);

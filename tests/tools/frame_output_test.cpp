@@ -99,7 +99,7 @@ TEST_F(FrameOutput, NoCurveStaysBesideAFailedStatus) {
 
 TEST_F(FrameOutput, OfSeveralRopesHasACenterlineForEach) {
   const auto ropes = test::sample_ropes();
-  ASSERT_TRUE(write_ropes(out(), frame_.frame(), ropes, kProvenance));
+  ASSERT_TRUE(write_ropes(out(), frame_.frame(), {ropes, {}, {}}, kProvenance));
   EXPECT_THAT(files(),
               ElementsAre("centerline.csv", "centerline_1.csv", "estimate.json", "overlay.png"));
   const auto first = frame::parse_centerline(test::read_text(out() / "centerline.csv"), "csv");

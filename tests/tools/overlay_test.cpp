@@ -161,7 +161,7 @@ TEST(Overlay, CurvesThatCannotBeDrawnLeaveThePicture) {
 
 TEST(RopesOverlay, EachRopeHasItsColourAndTheUpperOneIsWhole) {
   const Scene scene;
-  const auto picture = draw_overlay(scene.frame(), test::sample_ropes(), "cpu");
+  const auto picture = draw_overlay(scene.frame(), {test::sample_ropes(), {}, {}}, "cpu");
   EXPECT_EQ(picture.size(), kFrame);
   EXPECT_GT(pixels_near(picture, rope_color(0), {330, 230, 150, 20}), 150);
   EXPECT_EQ(pixels_near(picture, rope_color(1), {330, 230, 150, 20}), 0);
@@ -169,6 +169,16 @@ TEST(RopesOverlay, EachRopeHasItsColourAndTheUpperOneIsWhole) {
   const image::Rect crossing{317, 236, 7, 9};  // where both run
   EXPECT_GT(pixels_near(picture, rope_color(1), crossing), 10);
   EXPECT_EQ(pixels_near(picture, rope_color(0), crossing), 0);
+}
+
+TEST(RopesOverlay, ARopeKeepsItsColourThroughAStream) {
+  const Scene scene;
+  const auto alone = draw_overlay(scene.frame(), {test::sample_ropes(), {}, {}}, "cpu");
+  const auto tracked = draw_overlay(scene.frame(), {test::sample_ropes(), {2, 4}, {}}, "cpu");
+  const image::Rect of_first{330, 230, 150, 20};
+  EXPECT_EQ(pixels_near(tracked, rope_color(1), of_first),
+            pixels_near(alone, rope_color(0), of_first));
+  EXPECT_EQ(pixels_near(tracked, rope_color(0), of_first), 0);
 }
 
 }  // namespace

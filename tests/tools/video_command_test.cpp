@@ -108,10 +108,8 @@ TEST(Video, OfAnotherKindOrPlaceIsWrongUsage) {
   const TemporaryFolder scratch;
   const auto frame = test::write_frame(scratch.path()).string();
   const auto nowhere = (scratch.path() / "no" / "a.mp4").string();
-  for (const std::vector<std::string>& wrong : {std::vector<std::string>{"--video", "a.avi"},
-                                                {"--video", nowhere},
-                                                {"--fps", "5"},
-                                                {"--stream", "--ropes", "2"}}) {
+  for (const std::vector<std::string>& wrong :
+       {std::vector<std::string>{"--video", "a.avi"}, {"--video", nowhere}, {"--fps", "5"}}) {
     auto arguments = wrong;
     arguments.insert(arguments.begin(), frame);
     const auto outcome = run_estimate(scratch.path(), arguments);

@@ -53,6 +53,7 @@ flowdlo_msgs::Ropes ropes_message(const Seen& seen, const std_msgs::Header& head
   message.total_ms = static_cast<float>(seen.total_ms);
   for (const Rope& rope : seen.ropes) {
     flowdlo_msgs::Rope one;
+    one.number = rope.number;
     for (const auto& node : rope.nodes) one.nodes.push_back(point_of(node));
     one.sigma_m = rope.sigma_m;
     one.support.assign(rope.support.begin(), rope.support.end());
@@ -72,6 +73,7 @@ flowdlo_msgs::Ropes ropes_message(const Seen& seen, const std_msgs::Header& head
     one.apart_m = crossing.apart_m;
     message.crossings.push_back(one);
   }
+  message.missing = seen.missing;
   return message;
 }
 

@@ -16,6 +16,8 @@ Setup setup_of(const ros::NodeHandle& own) {
   own.getParam("threads", setup.threads);
   own.getParam("rope_length_m", setup.rope_length_m);
   own.getParam("budget_ms", setup.budget_ms);
+  own.getParam("most_moved_m", setup.most_moved_m);
+  own.getParam("patience", setup.patience);
   setup.seed = static_cast<std::uint64_t>(std::max(0, own.param("seed", 0)));
   return setup;
 }

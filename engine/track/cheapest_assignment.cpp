@@ -1,10 +1,10 @@
 // Kuhn and Munkres with potentials: shortest augmenting paths, O(n^3).
-#include "baselines/hungarian.hpp"
+#include "track/cheapest_assignment.hpp"
 
 #include <cstddef>
 #include <limits>
 
-namespace flowdlo::baselines {
+namespace flowdlo::track {
 namespace {
 
 // Rows and columns count from 1; 0 stands for "none".
@@ -85,4 +85,4 @@ std::vector<int> cheapest_assignment(const std::vector<std::vector<double>>& cos
   return assignment.columns();
 }
 
-}  // namespace flowdlo::baselines
+}  // namespace flowdlo::track

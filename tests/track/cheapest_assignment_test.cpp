@@ -1,4 +1,4 @@
-#include "baselines/hungarian.hpp"
+#include "track/cheapest_assignment.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,10 +7,10 @@
 #include <limits>
 #include <random>
 
-namespace flowdlo::baselines {
+namespace flowdlo::track {
 namespace {
 
-using testing::ElementsAre;
+using ::testing::ElementsAre;
 using Costs = std::vector<std::vector<double>>;
 
 double total(const Costs& cost, const std::vector<int>& columns) {
@@ -30,11 +30,11 @@ double least_of_all(const Costs& cost) {
   return least;
 }
 
-TEST(Hungarian, TakesTheDearerCellWhereTheSumIsLess) {
+TEST(CheapestAssignment, TakesTheDearerCellWhereTheSumIsLess) {
   EXPECT_THAT(cheapest_assignment({{1, 2}, {1, 9}}), ElementsAre(1, 0));
 }
 
-TEST(Hungarian, IsAsCheapAsEveryPermutation) {
+TEST(CheapestAssignment, IsAsCheapAsEveryPermutation) {
   std::mt19937 engine(7);
   for (int round = 0; round < 50; ++round) {
     Costs cost(6, std::vector<double>(6));
@@ -45,7 +45,7 @@ TEST(Hungarian, IsAsCheapAsEveryPermutation) {
   }
 }
 
-TEST(Hungarian, NothingToAssignIsNothing) { EXPECT_TRUE(cheapest_assignment({}).empty()); }
+TEST(CheapestAssignment, NothingToAssignIsNothing) { EXPECT_TRUE(cheapest_assignment({}).empty()); }
 
 }  // namespace
-}  // namespace flowdlo::baselines
+}  // namespace flowdlo::track

@@ -1,0 +1,53 @@
+#include "reports/rope_identity.hpp"
+
+#include <cstddef>
+#include <optional>
+
+#include "geometry/polyline.hpp"
+#include "track/alignment.hpp"
+
+namespace flowdlo::lab {
+namespace {
+
+constexpr double kBegin_m = 0.01;  // node 0 of a ring may move that far beside the ring
+
+track::Alignment align(const Estimate& now, const Estimate& before) {
+  return track::align(now.nodes, now.closed && before.closed, before.nodes);
+}
+
+}  // namespace
+
+void RopeIdentity::add(const std::vector<Estimate>& found, const std::vector<int>& numbers) {
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    ++ropes;
+    std::optional<std::size_t> nearest;
+    for (std::size_t k = 0; k < before_.size(); ++k) {
+      if (nearest &&
+          align(found[i], before_[k]).apart_m >= align(found[i], before_[*nearest]).apart_m) {
+        continue;
+      }
+      nearest = k;
+    }
+    if (!nearest) continue;
+    const Estimate& same = before_[*nearest];
+    mistaken += numbers_[*nearest] != numbers[i] ? 1 : 0;
+    const track::Alignment alignment = align(found[i], same);
+    if (found[i].closed && same.closed) {
+      const double moved_m = geometry::distance(found[i].nodes.front(), same.nodes.front());
+      begun += moved_m > alignment.apart_m + kBegin_m ? 1 : 0;
+    } else {
+      exchanged += alignment.reversed ? 1 : 0;
+    }
+  }
+  before_ = found;
+  numbers_ = numbers;
+}
+
+void RopeIdentity::add(const RopeIdentity& other) {
+  ropes += other.ropes;
+  mistaken += other.mistaken;
+  exchanged += other.exchanged;
+  begun += other.begun;
+}
+
+}  // namespace flowdlo::lab
