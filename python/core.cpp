@@ -116,8 +116,8 @@ class Handle {
 
   py::dict estimate(const Floats& depth_m, const Bytes& mask,
                     const std::array<float, 4>& intrinsics, const std::optional<Bytes>& color,
-                    const py::dict& hints, bool tracked) {
-    const Frame frame = frame_of(depth_m, mask, intrinsics, color);
+                    const std::optional<Labels>& instances, const py::dict& hints, bool tracked) {
+    const Frame frame = frame_of(depth_m, mask, intrinsics, color, instances);
     const Hints known = hints_of(hints);
     return dict_of(value_of(locked([&](Tracker& tracker) {
       return tracked ? tracker.estimate(frame, known) : tracker.estimator()->estimate(frame, known);
@@ -235,7 +235,8 @@ PYBIND11_MODULE(_core, module) {
       .def(py::init<const py::dict&>())
       .def("estimate", &Handle::estimate, py::arg("depth_m").noconvert(),
            py::arg("mask").noconvert(), py::arg("intrinsics"), py::arg("color_bgr").noconvert(),
-           py::arg("hints") = py::dict(), py::arg("tracked") = false)
+           py::arg("instances").noconvert(), py::arg("hints") = py::dict(),
+           py::arg("tracked") = false)
       .def("estimate_ropes", &Handle::estimate_ropes, py::arg("depth_m").noconvert(),
            py::arg("mask").noconvert(), py::arg("intrinsics"), py::arg("color_bgr").noconvert(),
            py::arg("instances").noconvert())

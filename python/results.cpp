@@ -157,13 +157,17 @@ py::dict dict_of(FrameFolder&& folder) {
   if (!folder.color_bgr.empty()) {
     color = array_of(std::move(folder.color_bgr), {height, width, 3});
   }
+  py::object instances = py::none();
+  if (!folder.instances.empty()) {
+    instances = array_of(std::move(folder.instances), {height, width});
+  }
   py::object truth = py::none();
   if (folder.truth) truth = array_of(*folder.truth);
   return py::dict("name"_a = text(folder.name),
                   "depth_m"_a = array_of(std::move(folder.depth_m), {height, width}),
                   "mask"_a = array_of(std::move(folder.mask), {height, width}),
                   "intrinsics"_a = py::make_tuple(camera.fx, camera.fy, camera.cx, camera.cy),
-                  "color_bgr"_a = color, "truth"_a = truth);
+                  "color_bgr"_a = color, "instances"_a = instances, "truth"_a = truth);
 }
 
 }  // namespace flowdlo::python

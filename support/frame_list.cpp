@@ -15,21 +15,33 @@ namespace {
 
 namespace fs = std::filesystem;
 
+// Also what cannot be looked at.
+bool may_be_there(const fs::path& file) {
+  std::error_code failure;
+  const auto type = fs::status(file, failure).type();
+  return type != fs::file_type::not_found;
+}
+
 // Also where a change was cut off: then the camera stands in its record.
 bool has_camera(const fs::path& folder) {
+  return may_be_there(folder / "camera.json") || may_be_there(folder / files::kRecordName);
+}
+
+// A frame, or what lacks something to be one: to open it says what.
+bool is_meant_as_frame(const fs::path& folder) {
   std::error_code ignored;
-  return fs::exists(folder / "camera.json", ignored) ||
-         fs::exists(folder / files::kRecordName, ignored);
+  return fs::is_directory(folder, ignored) &&
+         (has_camera(folder) || may_be_there(folder / "depth.png"));
 }
 
 // The frames of a data set, sorted; empty when `folder` is none.
 std::vector<fs::path> frames_of(const fs::path& folder) {
   std::vector<fs::path> frames;
-  if (has_camera(folder)) return frames;
+  if (is_meant_as_frame(folder)) return frames;
   std::error_code failure;
   for (fs::directory_iterator entry(folder, failure), end; !failure && entry != end;
        entry.increment(failure)) {
-    if (has_camera(entry->path())) frames.push_back(entry->path());
+    if (is_meant_as_frame(entry->path())) frames.push_back(entry->path());
   }
   std::sort(frames.begin(), frames.end());
   return frames;
@@ -59,6 +71,17 @@ std::string repeated_names(const std::vector<FrameEntry>& frames) {
 }
 
 }  // namespace
+
+Result<void> all_there(const std::vector<FrameEntry>& frames) {
+  for (const auto& entry : frames) {
+    if (entry.read || may_be_there(entry.folder)) continue;
+    return Error{ErrorCode::kIo,
+                 fmt::format("{}: expected a frame folder, or a folder of frames, got nothing of "
+                             "that name",
+                             files::shown(entry.folder))};
+  }
+  return {};
+}
 
 Result<std::vector<FrameEntry>> list_frames(const std::vector<fs::path>& arguments,
                                             const OpenRecording& open_recording) {

@@ -20,12 +20,15 @@ struct FrameEntry {
 /// The frames of a recording.
 using OpenRecording = std::function<Result<std::vector<FrameEntry>>(const std::filesystem::path&)>;
 
-/// One entry for each of `arguments`; a data set (a folder without camera.json whose folders have
-/// one) stands for its frames in the order of their names, and a file NAME.bag for those that
-/// `open_recording` finds in it. A folder that is no frame stays in the
+/// One entry for each of `arguments`; a data set (a folder without camera.json and depth.png whose
+/// folders have one of these) stands for its frames in the order of their names, and a file
+/// NAME.bag for those that `open_recording` finds in it. A folder that is no frame stays in the
 /// list: its estimate says what is wrong. Fails with kBadInput where two frames share a name, and
 /// as `open_recording` does.
 [[nodiscard]] Result<std::vector<FrameEntry>> list_frames(
     const std::vector<std::filesystem::path>& arguments, const OpenRecording& open_recording = {});
+
+/// Fails with kIo, naming the first one of which there is nothing.
+[[nodiscard]] Result<void> all_there(const std::vector<FrameEntry>& frames);
 
 }  // namespace flowdlo::support

@@ -231,6 +231,16 @@ support::ExitCode run(EstimateOptions& options) {
     complain(made.error());
     return support::ExitCode::kUsage;
   }
+  for (const auto& entry : *frames) {
+    std::error_code failure;
+    if (entry.read || !fs::equivalent(entry.folder, options.out / entry.name, failure)) continue;
+    complain({ErrorCode::kBadInput,
+              fmt::format("--out {}: expected a folder away from the frames, got one whose {} is a "
+                          "frame itself; results of an earlier run are removed there, choose "
+                          "another folder",
+                          files::shown(options.out), files::shown(entry.name))});
+    return support::ExitCode::kUsage;
+  }
   auto tracker = Tracker::create(options.config);
   if (!tracker) {
     complain(tracker.error());

@@ -118,9 +118,11 @@ Result<void> write(const fs::path& folder, const Frame& frame) {
   return staged.commit();
 }
 
-Result<void> check_place(const fs::path& folder, const MaskOptions& options) {
+Result<void> check_place(const fs::path& folder, const support::FrameEntry& entry,
+                         const MaskOptions& options) {
   std::error_code failure;
-  if (!options.out.empty()) {
+  const bool beside = !options.out.empty() && !fs::equivalent(folder, entry.folder, failure);
+  if (beside) {
     fs::create_directories(folder, failure);
     if (!failure) return {};
     return Error{ErrorCode::kIo, fmt::format("--out {}: cannot be made: {}; choose another folder",
@@ -130,9 +132,10 @@ Result<void> check_place(const fs::path& folder, const MaskOptions& options) {
       fs::symlink_status(folder / kMaskName, failure).type() == fs::file_type::not_found) {
     return {};
   }
-  return Error{ErrorCode::kIo,
-               fmt::format("{}: there is a mask already; --force replaces it, --out DIR leaves it",
-                           files::shown(folder / kMaskName))};
+  return Error{
+      ErrorCode::kIo,
+      fmt::format("{}: there is a mask already; --force replaces it, another --out DIR leaves it",
+                  files::shown(folder / kMaskName))};
 }
 
 /// What there is to say about one input, or why it has no mask.
@@ -149,7 +152,7 @@ Result<std::string> run_one(const support::FrameEntry& entry, const MaskOptions&
   const double share = 100.0 * static_cast<double>(pixels) / static_cast<double>(mask->size());
   loaded->mask = *std::move(mask);
   const fs::path folder = options.out.empty() ? entry.folder : options.out / entry.name;
-  if (auto fine = check_place(folder, options); !fine) return fine.error();
+  if (auto fine = check_place(folder, entry, options); !fine) return fine.error();
   if (auto done = write(folder, loaded->frame()); !done) return done.error();
   return fmt::format("{}: {:.2f} % of the image, {}", files::shown(entry.name), share,
                      files::shown(folder / kOverlayName));

@@ -102,6 +102,7 @@ support::ExitCode run(ViewOptions& options) {
   const auto frames =
       support::list_frames(options.frames, support::recording_opener(options.recordings, false));
   if (!frames) return refused(frames.error());
+  if (auto there = support::all_there(*frames); !there) return refused(there.error());
   auto estimator = Estimator::create(options.config);
   if (!estimator) return refused(estimator.error());
   auto server = view::HttpServer::listen(options.port);

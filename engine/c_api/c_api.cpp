@@ -192,6 +192,9 @@ Result<void> point_at(const flowdlo_frame_folder* folder, flowdlo_frame* out) {
   if (!content.color_bgr.empty()) {
     frame.color = packed(content.color_bgr.data(), FLOWDLO_PIXEL_BGR8);
   }
+  if (!content.instances.empty()) {
+    frame.instances = packed(content.instances.data(), FLOWDLO_PIXEL_U16);
+  }
   frame.width = content.width;
   frame.height = content.height;
   frame.fx = content.intrinsics.fx;

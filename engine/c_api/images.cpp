@@ -55,12 +55,16 @@ struct Strided {
 
   [[nodiscard]] const std::byte* row(int v) const { return first + v * row_bytes; }
 
+  [[nodiscard]] std::size_t alignment() const {
+    if (pixel == FLOWDLO_PIXEL_F32) return alignof(float);
+    return pixel == FLOWDLO_PIXEL_U16 ? alignof(std::uint16_t) : 1;
+  }
+
   /// Pixels of the region follow each other, so that a view is enough.
   [[nodiscard]] bool packed(const Rectangle& region) const {
     return pixel_bytes == size_of_pixel(pixel) &&
            (region.height == 1 || row_bytes == pixel_bytes * region.width) &&
-           (pixel != FLOWDLO_PIXEL_F32 ||
-            reinterpret_cast<std::uintptr_t>(first) % alignof(float) == 0);
+           reinterpret_cast<std::uintptr_t>(first) % alignment() == 0;
   }
 };
 
@@ -184,6 +188,18 @@ std::span<const std::uint8_t> color_of(const Strided& image, const Rectangle& re
   return copy;
 }
 
+std::span<const std::uint16_t> labels_of(const Strided& image, const Rectangle& region,
+                                         std::vector<std::uint16_t>& copy) {
+  if (image.packed(region)) {
+    return {reinterpret_cast<const std::uint16_t*>(image.first), region.pixels()};
+  }
+  copy.resize(region.pixels());
+  for_each_pixel(image, region, [&](const std::byte* source, std::size_t pixel) {
+    std::memcpy(&copy[pixel], source, sizeof(std::uint16_t));
+  });
+  return copy;
+}
+
 }  // namespace
 
 flowdlo_frame default_frame() {
@@ -209,6 +225,8 @@ Result<Frame> frame_of(const flowdlo_frame& given, Copies& copies, const Uses& u
       read("mask", given.mask, uses.mask, FLOWDLO_PIXEL_U8, FLOWDLO_PIXEL_U8, "FLOWDLO_PIXEL_U8");
   const Strided color = read("color", given.color, uses.color, FLOWDLO_PIXEL_BGR8,
                              FLOWDLO_PIXEL_RGB8, "FLOWDLO_PIXEL_BGR8 or FLOWDLO_PIXEL_RGB8");
+  const Strided instances = read("instances", given.instances, uses.instances, FLOWDLO_PIXEL_U16,
+                                 FLOWDLO_PIXEL_U16, "FLOWDLO_PIXEL_U16");
   if (uses.depth != Use::kUnread && given.depth.pixel == FLOWDLO_PIXEL_U16 &&
       !(given.depth_scale_m > 0 && given.depth_scale_m <= 1)) {
     faults.add(fmt::format(
@@ -224,12 +242,14 @@ Result<Frame> frame_of(const flowdlo_frame& given, Copies& copies, const Uses& u
                              given.cy - static_cast<float>(region.v)},
               .depth_m = {},
               .mask = {},
-              .color_bgr = {}};
+              .color_bgr = {},
+              .instances = {}};
   if (depth.first != nullptr) {
     frame.depth_m = depth_of(depth, region, given.depth_scale_m, copies.depth_m);
   }
   if (mask.first != nullptr) frame.mask = mask_of(mask, region, copies.mask);
   if (color.first != nullptr) frame.color_bgr = color_of(color, region, copies.color_bgr);
+  if (instances.first != nullptr) frame.instances = labels_of(instances, region, copies.instances);
   return frame;
 }
 

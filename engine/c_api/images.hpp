@@ -15,6 +15,7 @@ struct Copies {
   std::vector<float> depth_m;
   std::vector<std::uint8_t> mask;
   std::vector<std::uint8_t> color_bgr;
+  std::vector<std::uint16_t> instances;
 };
 
 /// What a call does with an image.
@@ -24,6 +25,7 @@ struct Uses {
   Use depth = Use::kNeeded;
   Use mask = Use::kNeeded;
   Use color = Use::kIfThere;
+  Use instances = Use::kIfThere;
 };
 
 /// What flowdlo_frame_init writes.

@@ -94,12 +94,12 @@ Result<void> from_color(const flowdlo_frame* frame, const flowdlo_color_band* gi
                         std::uint8_t* to, std::size_t bytes) {
   if (const auto fits = check_size(given); !fits) return fits.error();
   const flowdlo_color_band band = read(given, default_color_band());
-  return mask_of("flowdlo_mask_from_color", frame, {Use::kUnread, Use::kUnread, Use::kNeeded}, to,
-                 bytes, [&](const Frame& of) {
-                   return mask_from_color(
-                       of, {band.red, band.green, band.blue, band.tolerance, band.least_lightness,
-                            band.most_lightness, cleaning_of(band)});
-                 });
+  return mask_of(
+      "flowdlo_mask_from_color", frame, {Use::kUnread, Use::kUnread, Use::kNeeded, Use::kUnread},
+      to, bytes, [&](const Frame& of) {
+        return mask_from_color(of, {band.red, band.green, band.blue, band.tolerance,
+                                    band.least_lightness, band.most_lightness, cleaning_of(band)});
+      });
 }
 
 Result<void> from_plane(const flowdlo_frame* frame, const flowdlo_height_band* given,
@@ -112,8 +112,9 @@ Result<void> from_plane(const flowdlo_frame* frame, const flowdlo_height_band* g
                              "with flowdlo_height_band_init before use",
                              band->reserved)};
   }
-  return mask_of("flowdlo_mask_from_plane", frame, {Use::kNeeded, Use::kUnread, Use::kUnread}, to,
-                 bytes, [&](const Frame& of) {
+  return mask_of("flowdlo_mask_from_plane", frame,
+                 {Use::kNeeded, Use::kUnread, Use::kUnread, Use::kUnread}, to, bytes,
+                 [&](const Frame& of) {
                    return mask_from_plane(of, {band->least_m, band->most_m, cleaning_of(*band)});
                  });
 }
@@ -130,8 +131,9 @@ Result<void> from_seeds(const flowdlo_frame* frame, const float* seeds, std::siz
   }
   const auto growth = read_or(given, default_seed_growth());
   if (!growth) return growth.error();
-  return mask_of("flowdlo_mask_from_seeds", frame, {Use::kIfThere, Use::kUnread, Use::kNeeded}, to,
-                 bytes, [&](const Frame& of) {
+  return mask_of("flowdlo_mask_from_seeds", frame,
+                 {Use::kIfThere, Use::kUnread, Use::kNeeded, Use::kUnread}, to, bytes,
+                 [&](const Frame& of) {
                    std::vector<Pixel> pixels;
                    for (std::size_t i = 0; i < count; ++i) {
                      pixels.push_back({seeds[2 * i] - static_cast<float>(frame->roi_u),

@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstring>
+#include <string>
 
 #include "flowdlo/flowdlo.h"
 #include "flowdlo/result.hpp"
@@ -13,8 +14,8 @@
 namespace flowdlo::c_api {
 
 /// What a struct is called and how large it was in the first version that had it. A later version
-/// adds fields and leaves `kFirstBytes` alone. No byte of padding ends a struct, for a field that
-/// took its place would not change the size.
+/// adds fields and leaves `kFirstBytes` alone; no struct has been of more than two sizes so far. No
+/// byte of padding ends a struct, for a field that took its place would not change the size.
 template <class Struct>
 struct Kind;
 
@@ -32,7 +33,8 @@ struct Kind<flowdlo_frame> {
   static constexpr const char* kName = "flowdlo_frame";
   static constexpr std::size_t kFirstBytes =
       offsetof(flowdlo_frame, roi_height) + sizeof(flowdlo_frame::roi_height);
-  static_assert(sizeof(flowdlo_frame) == kFirstBytes);
+  static_assert(sizeof(flowdlo_frame) ==
+                offsetof(flowdlo_frame, instances) + sizeof(flowdlo_frame::instances));
 };
 
 template <>
@@ -99,7 +101,7 @@ struct Kind<flowdlo_crossing> {
   static_assert(sizeof(flowdlo_crossing) == kFirstBytes);
 };
 
-/// The struct is there and of a size that a version up to this one has.
+/// The struct is there and of a size that it has had.
 template <class Struct>
 [[nodiscard]] Result<void> check_size(const Struct* given, std::size_t bytes) {
   using Known = Kind<Struct>;
@@ -107,22 +109,17 @@ template <class Struct>
     return Error{ErrorCode::kBadInput,
                  fmt::format("{0}: expected a {0}, got NULL; pass its address", Known::kName)};
   }
-  if (bytes < Known::kFirstBytes) {
-    return Error{
-        ErrorCode::kBadInput,
-        fmt::format("{0}.struct_size: expected {1} to {2} bytes, got {3}; fill the struct with "
-                    "{0}_init before use",
-                    Known::kName, Known::kFirstBytes, sizeof(Struct), bytes)};
-  }
-  if (bytes > sizeof(Struct)) {
-    return Error{
-        ErrorCode::kBadInput,
-        fmt::format("{0}.struct_size: expected {1} to {2} bytes, got {3}; fill the struct with "
-                    "{0}_init before use, and run with a library no older than the header (this is "
-                    "{4})",
-                    Known::kName, Known::kFirstBytes, sizeof(Struct), bytes, FLOWDLO_VERSION)};
-  }
-  return {};
+  if (bytes == Known::kFirstBytes || bytes == sizeof(Struct)) return {};
+  const std::string expected = Known::kFirstBytes == sizeof(Struct)
+                                   ? fmt::format("{}", sizeof(Struct))
+                                   : fmt::format("{} or {}", Known::kFirstBytes, sizeof(Struct));
+  return Error{ErrorCode::kBadInput,
+               fmt::format("{0}.struct_size: expected {1} bytes, got {2}; fill the struct with "
+                           "{0}_init before use{3}",
+                           Known::kName, expected, bytes,
+                           bytes > sizeof(Struct) ? ", and run with a library no older than the "
+                                                    "header (this is " FLOWDLO_VERSION ")"
+                                                  : "")};
 }
 
 /// The same of a struct that says its size itself.

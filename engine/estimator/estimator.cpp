@@ -310,15 +310,26 @@ Result<Ropes> Estimator::estimate_ropes(const Frame& frame) {
     if (auto fine = usable(); !fine) return fine.error();
     if (auto valid = validate(frame); !valid) return valid.error();
     const estimator::Budget budget(impl_->config.budget_ms);
-    return estimator::estimate_each(
+    bool looked = false;
+    bool closer_left_out = false;
+    auto ropes = estimator::estimate_each(
         frame, impl_->config.ropes,
         [&](const Frame& view, const estimator::Traced* traced, double share) {
           return impl_->estimate(view, {}, nullptr, budget.part(share), traced);
         },
         [&](float rope_width_px) {
+          // What tells ropes apart is never left out: by the mask alone there are other ropes, and
+          // each of them takes longer.
           bool left_out = false;
-          return impl_->axes(frame, rope_width_px, budget, true, left_out);
+          auto axes = impl_->axes(frame, rope_width_px, looked ? budget : estimator::Budget(0),
+                                  true, left_out);
+          closer_left_out = closer_left_out || left_out;
+          looked = true;
+          return axes;
         });
+    if (!ropes || !closer_left_out) return ropes;
+    for (Estimate& rope : ropes->ropes) rope.left_out.push_back(LeftOut::kReadings);
+    return ropes;
   });
 }
 

@@ -7,10 +7,12 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <optional>
 #include <utility>
 
 #include "flowdlo/config.hpp"
 #include "geometry/depth.hpp"
+#include "geometry/mask_box.hpp"
 #include "geometry/pixel.hpp"
 #include "geometry/polyline.hpp"
 #include "geometry/quantile.hpp"
@@ -44,23 +46,48 @@ std::size_t index_of(const Frame& frame, const Vector2f& p) {
 
 bool masked(const Frame& frame, std::size_t pixel) { return frame.mask[pixel] > 127; }
 
-// How far each pixel is from the path.
-image::Image<float> distance_to(const Path& path, const Frame& frame) {
-  image::Mask away({frame.width, frame.height}, 255);
-  std::vector<image::Point> points;
-  for (const Vector2f& p : path.points_px) {
-    points.push_back({geometry::nearest_px(p.x()), geometry::nearest_px(p.y())});
+image::Point nearest(const Vector2f& p) {
+  return {geometry::nearest_px(p.x()), geometry::nearest_px(p.y())};
+}
+
+// What holds the mask, a pixel beside it, and all paths: nothing outside matters to any distance.
+image::Rect box_of(const std::vector<Path>& paths, const Frame& frame) {
+  const image::Rect mask = geometry::mask_box(frame);
+  int left = mask.x - 1;
+  int top = mask.y - 1;
+  int right = mask.x + mask.width;
+  int bottom = mask.y + mask.height;
+  for (const Path& path : paths) {
+    for (const Vector2f& p : path.points_px) {
+      const image::Point at = nearest(p);
+      left = std::min(left, at.x);
+      top = std::min(top, at.y);
+      right = std::max(right, at.x);
+      bottom = std::max(bottom, at.y);
+    }
   }
+  return image::Rect{left, top, right - left + 1, bottom - top + 1} &
+         image::Rect{0, 0, frame.width, frame.height};
+}
+
+// How far each pixel of the box is from the path.
+image::Image<float> distance_to(const Path& path, const image::Rect& box) {
+  image::Mask away(box.size(), 255);
+  std::vector<image::Point> points;
+  for (const Vector2f& p : path.points_px) points.push_back(nearest(p) - box.corner());
   image::draw_polyline(away, points, 0);
   return image::distance_to_empty(away);
 }
 
-// How wide `mask`, 0 or more, is along the path in the median.
-float width_along(const Path& path, const image::Image<float>& inside, float usual_px) {
+// How wide the mask is along the path in the median; `inside` is how far each pixel of the box is
+// from where the mask ends.
+float width_along(const Path& path, const image::Image<float>& inside, const image::Rect& box,
+                  float usual_px) {
   std::vector<float> widths;
   for (std::size_t i = 0; i < path.points_px.size(); ++i) {
-    const int u = std::clamp(geometry::nearest_px(path.points_px[i].x()), 0, inside.width() - 1);
-    const int v = std::clamp(geometry::nearest_px(path.points_px[i].y()), 0, inside.height() - 1);
+    const image::Point at = nearest(path.points_px[i]) - box.corner();
+    const int u = std::clamp(at.x, 0, inside.width() - 1);
+    const int v = std::clamp(at.y, 0, inside.height() - 1);
     const float distance = inside.at(v, u);
     if (path.bridged[i] == 0 && distance > 0) widths.push_back(2 * distance - 0.5F);
   }
@@ -105,6 +132,8 @@ class Stretch {
     }
   }
 
+  [[nodiscard]] const std::vector<Vector2f>& points() const { return points_; }
+
   [[nodiscard]] float away_px(const Vector2f& p) const {
     float least = std::numeric_limits<float>::max();
     for (const Vector2f& q : points_) least = std::min(least, (p - q).squaredNorm());
@@ -117,27 +146,33 @@ class Stretch {
 
 class Parting {
  public:
-  Parting(const Frame& frame, Parted& parted) : frame_(frame), parted_(parted) {
+  Parting(const Frame& frame, Parted& parted)
+      : frame_(frame), parted_(parted), box_(box_of(parted.paths.ropes, frame)) {
     const image::ConstMask given(frame.mask.data(), {frame.width, frame.height}, frame.width);
-    const auto inside = image::distance_to_empty(image::above(given, 127, 1));
+    const auto inside = image::distance_to_empty(image::above(given.part(box_), 127, 1));
     for (const Path& path : ropes()) {
-      parted_.width_px.push_back(width_along(path, inside, parted.paths.rope_width_px));
+      parted_.width_px.push_back(width_along(path, inside, box_, parted.paths.rope_width_px));
     }
   }
 
   // Each pixel of the mask to the path that it is nearest to, in widths of its rope; those of a
   // crossing to the upper one.
   void share_out() {
-    const std::size_t pixels = frame_.mask.size();
-    parted_.instances.assign(pixels, 0);
-    std::vector<float> least(pixels, std::numeric_limits<float>::max());
+    parted_.instances.assign(frame_.mask.size(), 0);
+    image::Image<float> least(box_.size(), std::numeric_limits<float>::max());
     for (std::size_t r = 0; r < ropes().size(); ++r) {
-      const image::Image<float> distance = distance_to(ropes()[r], frame_);
-      const auto* away = distance.data();
-      for (std::size_t p = 0; p < pixels; ++p) {
-        if (!masked(frame_, p) || away[p] >= least[p] * parted_.width_px[r]) continue;
-        least[p] = away[p] / parted_.width_px[r];
-        parted_.instances[p] = static_cast<std::uint16_t>(r + 1);
+      const image::Image<float> distance = distance_to(ropes()[r], box_);
+      for (int v = 0; v < box_.height; ++v) {
+        const auto first =
+            static_cast<std::size_t>(box_.y + v) * static_cast<std::size_t>(frame_.width) +
+            static_cast<std::size_t>(box_.x);
+        for (int u = 0; u < box_.width; ++u) {
+          const std::size_t p = first + static_cast<std::size_t>(u);
+          const float away = distance.at(v, u);
+          if (!masked(frame_, p) || away >= least.at(v, u) * parted_.width_px[r]) continue;
+          least.at(v, u) = away / parted_.width_px[r];
+          parted_.instances[p] = static_cast<std::uint16_t>(r + 1);
+        }
       }
     }
     for (std::size_t a = 0; a < ropes().size(); ++a) {
@@ -201,27 +236,37 @@ class Parting {
     const Vector2f& at = ropes()[a].points_px[meeting.sample[0]];
     const float reach =
         kZone * (parted_.width_px[a] + parted_.width_px[b]) / std::max(kFlattest, meeting.sine);
-    const int far = static_cast<int>(std::ceil(reach));
-    for (int dv = -far; dv <= far; ++dv) {
-      for (int du = -far; du <= far; ++du) {
-        if (static_cast<float>(du * du + dv * dv) > reach * reach) continue;
-        const int u = geometry::nearest_px(at.x()) + du;
-        const int v = geometry::nearest_px(at.y()) + dv;
-        if (u < 0 || v < 0 || u >= frame_.width || v >= frame_.height) continue;
+    const float radius_px = 0.5F * parted_.width_px[upper] + 0.5F;
+    for (const Vector2f& q : (first ? near_a : near_b).points()) {
+      give_around(q, radius_px, at, reach, a, b, static_cast<std::uint16_t>(upper + 1));
+    }
+  }
+
+  // What `a` and `b` have within `radius_px` of `q`, and within `reach` of `at`, is `now`'s.
+  void give_around(const Vector2f& q, float radius_px, const Vector2f& at, float reach,
+                   std::size_t a, std::size_t b, std::uint16_t now) {
+    const Vector2f middle(static_cast<float>(geometry::nearest_px(at.x())),
+                          static_cast<float>(geometry::nearest_px(at.y())));
+    const Vector2f from = (q.array() - radius_px).max(middle.array() - reach).max(0.0F);
+    const Vector2f to = (q.array() + radius_px).min(middle.array() + reach);
+    const int last_u = std::min(static_cast<int>(to.x()), frame_.width - 1);
+    const int last_v = std::min(static_cast<int>(to.y()), frame_.height - 1);
+    for (int v = static_cast<int>(std::ceil(from.y())); v <= last_v; ++v) {
+      for (int u = static_cast<int>(std::ceil(from.x())); u <= last_u; ++u) {
         const auto pixel = static_cast<std::size_t>(v) * static_cast<std::size_t>(frame_.width) +
                            static_cast<std::size_t>(u);
-        const std::uint16_t now = parted_.instances[pixel];
-        if (now != a + 1 && now != b + 1) continue;
+        std::uint16_t& instance = parted_.instances[pixel];
+        if (instance != a + 1 && instance != b + 1) continue;
         const Vector2f p(static_cast<float>(u), static_cast<float>(v));
-        const float away_px = first ? near_a.away_px(p) : near_b.away_px(p);
-        if (away_px > 0.5F * parted_.width_px[upper] + 0.5F) continue;
-        parted_.instances[pixel] = static_cast<std::uint16_t>(upper + 1);
+        if ((p - middle).squaredNorm() > reach * reach) continue;
+        if ((p - q).squaredNorm() <= radius_px * radius_px) instance = now;
       }
     }
   }
 
   const Frame& frame_;
   Parted& parted_;
+  image::Rect box_;  // outside of which there is neither mask nor path
 };
 
 // The labels that cover more than a speck of the mask, in ascending order.
@@ -250,6 +295,7 @@ Result<Parted> part_labelled(const Frame& frame) {
   parted.instances.assign(frame.mask.size(), 0);
   std::vector<std::uint8_t> mask(frame.mask.size());
   std::vector<std::uint16_t> others(frame.mask.size());
+  std::optional<Error> first_fault;
   for (const std::uint16_t label : labels) {
     const auto number = static_cast<std::uint16_t>(parted.paths.ropes.size() + 1);
     for (std::size_t p = 0; p < mask.size(); ++p) {
@@ -262,9 +308,14 @@ Result<Parted> part_labelled(const Frame& frame) {
     one.mask = mask;
     one.instances = others;
     auto traced = path::trace_ropes(one, 1);
-    if (!traced) {
-      return Error{traced.error().code,
-                   fmt::format("Frame.instances, label {}: {}", label, traced.error().message)};
+    if (!traced) {  // a few pixels that a segmentation got wrong cost no other rope
+      if (traced.error().code == ErrorCode::kOutOfMemory) return traced.error();
+      if (!first_fault) {
+        first_fault = {traced.error().code,
+                       fmt::format("Frame.instances, label {}: {}", label, traced.error().message)};
+      }
+      std::replace(parted.instances.begin(), parted.instances.end(), number, std::uint16_t{0});
+      continue;
     }
     parted.width_px.push_back(traced->rope_width_px);
     parted.paths.rope_width_px = std::max(parted.paths.rope_width_px, traced->rope_width_px);
@@ -272,6 +323,7 @@ Result<Parted> part_labelled(const Frame& frame) {
     parted.paths.lead.push_back(0);  // that of a mask of one rope tells nothing
     parted.witness.push_back(Witness::kLabel);
   }
+  if (parted.paths.ropes.empty()) return *first_fault;
   return parted;
 }
 

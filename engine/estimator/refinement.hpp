@@ -15,9 +15,9 @@ namespace flowdlo::estimator {
 /// A candidate as the refining networks are told about it.
 [[nodiscard]] refine::Curve curve_of(const gate::Candidate& candidate);
 
-/// As refine::refined() of a prior of this frame: the networks have seen no other. Its ends stay
-/// where `hints` say where they are, where the rope is a ring, and where `look` has no strand
-/// field. `rope_length_m` 0: unknown.
+/// As refine::refined() of a prior of this frame: the networks have seen no other. Its ends go
+/// where `hints` say that they are, if that is near; a ring has none to move, and without a strand
+/// field in `look` the others stay. `rope_length_m` 0: unknown.
 [[nodiscard]] Result<refine::Refined> refined(const gate::Candidate& prior, const SecondLook& look,
                                               const Frame& frame, refine::Network& network,
                                               double rope_length_m, const Hints& hints = {});

@@ -162,11 +162,31 @@ CameraFile read_open3d(Reader& reader) {
   return camera;
 }
 
+/// Whether it is, or holds, a number that is not 0.
+bool distorts(const Value& value) {
+  if (value.is_number()) return value.number != 0;
+  return std::any_of(value.elements.begin(), value.elements.end(), distorts);
+}
+
+/// Nothing here takes a lens' distortion back: nodes would be off without a word.
+void check_rectified(Reader& reader) {
+  for (const char* key : {"D", "distortion", "distortion_coefficients", "dist_coeffs", "distCoeffs",
+                          "k1", "k2", "k3", "p1", "p2"}) {
+    const Value* value = reader.json.find(key);
+    if (value == nullptr || !distorts(*value)) continue;
+    reader.fault(
+        fmt::format("\"{}\": expected rectified images, without distortion, got {}; rectify "
+                    "them and leave it out",
+                    key, shown(*value)));
+  }
+}
+
 CameraFile read_form(Reader& reader) {
   if (!reader.json.is_object()) {
     reader.fault("expected a JSON object, got " + shown(reader.json));
     return {};
   }
+  check_rectified(reader);
   const bool own = reader.has("fx") || reader.has("fy");
   const bool bop = reader.has("cam_K");
   const bool open3d = reader.has("intrinsic_matrix");

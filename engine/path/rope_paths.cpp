@@ -17,16 +17,20 @@ namespace flowdlo::path {
 namespace {
 
 constexpr std::size_t kSets = 24;
+// Who says how many ropes there are is right rather than wrong, as the logarithm of the odds.
+constexpr float kNumberKnown = 3;
 constexpr float kLeastShare = 0.02F;  // of a set that is worth telling of, beside the first
 
-// By how much the cheapest set that has no such way costs more than the first.
-float lead_of(const Traversal& way, const std::vector<RopeSet>& sets, const Strands& strands) {
+// By how much the cheapest of the sets that has no such way costs more than `cost`, at most
+// kMostLead either way.
+float lead_of(const Traversal& way, const std::vector<RopeSet>& sets, float cost,
+              const Strands& strands) {
   const auto key = key_of(way, strands);
   for (const RopeSet& set : sets) {
     const bool has = std::any_of(set.ways.begin(), set.ways.end(), [&](const Traversal& other) {
       return other.closed == way.closed && key_of(other, strands) == key;
     });
-    if (!has) return std::min(kMostLead, set.cost - sets.front().cost);
+    if (!has) return std::clamp(set.cost - cost, -kMostLead, kMostLead);
   }
   return kMostLead;
 }
@@ -105,6 +109,9 @@ Result<RopePaths> rope_paths(const Strands& strands, const Prices& prices, const
                              const Frame& frame, int ropes) {
   const auto sets = search_sets(strands, prices, ropes, kSets);
   if (sets.empty()) return no_set(ropes, strands);
+  // A number that the strands speak against more than its giver is to be trusted.
+  const auto of_any_number =
+      ropes > 0 ? search_sets(strands, prices, 0, kSets) : std::vector<RopeSet>();
   RopePaths result;
   result.rope_width_px = strands.width_px;
   result.filtered = region.filtered;
@@ -114,7 +121,9 @@ Result<RopePaths> rope_paths(const Strands& strands, const Prices& prices, const
     if (path.points_px.size() < 2) continue;
     path.score = -static_cast<double>(sets.front().cost);
     result.ropes.push_back(std::move(path));
-    result.lead.push_back(lead_of(way, sets, strands));
+    const float cost = sets.front().cost;
+    result.lead.push_back(std::min(lead_of(way, sets, cost, strands),
+                                   lead_of(way, of_any_number, cost, strands) + kNumberKnown));
   }
   if (result.ropes.empty()) return no_set(ropes, strands);
   result.guesses = guesses_of(sets, drawing);

@@ -32,9 +32,12 @@ float lacking_m(float length_m, float known_m) {
 Refined with_tips(const Curve& curve, const Centerline& nodes, const Frame& frame,
                   const Network& network, const EndsKnown& ends) {
   Refined refined{nodes};
-  if (ends.seen == nullptr || network.tips() == nullptr || !can_be_seen(curve)) return refined;
+  if (!can_be_seen(curve)) return refined;
+  const bool seen = ends.seen != nullptr && network.tips() != nullptr;
   std::array<float, 2> hidden{};
   for (const std::size_t end : {0U, 1U}) {
+    refined.beyond_m[end] = ends.tip_m[end].value_or(0);
+    if (ends.tip_m[end] || !seen) continue;
     const TipFeatures features = tip_features(curve, end == 1, frame, *ends.seen);
     refined.beyond_m[end] = 2 * curve.radius_m * network.tips()->beyond(features);
     hidden[end] = std::pow(kShown - features[kTipAhead], 4.0F);
@@ -42,8 +45,11 @@ Refined with_tips(const Curve& curve, const Centerline& nodes, const Frame& fram
   const float length_m = geometry::length(nodes) + refined.beyond_m[0] + refined.beyond_m[1];
   const float lacking = lacking_m(length_m, static_cast<float>(ends.rope_length_m));
   for (const std::size_t end : {0U, 1U}) {
-    refined.beyond_m[end] += lacking * hidden[end] / (hidden[0] + hidden[1]);
+    if (hidden[end] > 0) {
+      refined.beyond_m[end] += lacking * hidden[end] / (hidden[0] + hidden[1]);
+    }
   }
+  if (refined.beyond_m[0] == 0 && refined.beyond_m[1] == 0) return Refined{nodes};
   const Centerline whole = to_the_tips(nodes, refined.beyond_m);
   const bool usable = std::all_of(whole.begin(), whole.end(), [](const Point3& node) {
     return std::isfinite(node.x) && std::isfinite(node.y) && node.z > geometry::kLeastDepth_m;

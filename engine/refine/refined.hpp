@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 
 #include "field/view.hpp"
 #include "flowdlo/frame.hpp"
@@ -22,6 +23,8 @@ struct Refined {
 struct EndsKnown {
   const field::FieldView* seen = nullptr;  ///< what the strand field shows; null: they stay
   double rope_length_m = 0;                ///< known length; 0: unknown
+  /// How far beyond either end the tip is known to be, metres; negative: before it.
+  std::array<std::optional<float>, 2> tip_m{};
 };
 
 /// `nodes`, the curve's or those moved deep and aside, with their ends moved along to where the
@@ -30,10 +33,11 @@ struct EndsKnown {
                                 const Network& network, const EndsKnown& ends);
 
 /// The curve's nodes, each moved deep and aside, then its ends moved along to where the tips are
-/// (refine/tips.hpp), and 64 nodes again evenly between them. What a known length lacks then,
-/// both are longer by, above all the one at which the field shows less of a tip. A network without
-/// tips leaves the ends where they are. All stay where the curve makes no strip, and where a node
-/// would not be finite and in front of the camera. Fails as Network::see does.
+/// (refine/tips.hpp) or are known to be, and 64 nodes again evenly between them. What a known
+/// length lacks then, both are longer by, above all the one at which the field shows less of a tip,
+/// unless both tips are known. A network without tips leaves the other ends where they are. All
+/// stay where the curve makes no strip, and where a node would not be finite and in front of the
+/// camera. Fails as Network::see does.
 [[nodiscard]] Result<Refined> refined(const Curve& curve, const Frame& frame, Network& network,
                                       const EndsKnown& ends = {});
 

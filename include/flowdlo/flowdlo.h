@@ -135,6 +135,8 @@ typedef struct flowdlo_frame {
   int32_t roi_v;      /* and row; nothing outside is looked at */
   int32_t roi_width;  /* 0, as roi_height: the whole images. A region is 1..4096 px a side. */
   int32_t roi_height; /* Intrinsics stay those of the whole images, nodes stay where they are. */
+  flowdlo_image instances; /* FLOWDLO_PIXEL_U16: which rope each pixel is of, from 1, 0: none or
+                            * unknown; data NULL: not known */
 } flowdlo_frame;
 
 /* Fills `frame` with zeros, and depth_scale_m with 0.001. `struct_size` is sizeof(flowdlo_frame).

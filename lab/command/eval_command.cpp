@@ -291,6 +291,9 @@ support::ExitCode run(const EvalOptions& options) {
   const auto frames = support::list_frames(
       options.frames, support::recording_opener(options.recordings, options.quiet));
   if (!frames) return complain(frames.error(), support::ExitCode::kUsage);
+  if (auto there = support::all_there(*frames); !there) {
+    return complain(there.error(), support::ExitCode::kUsage);
+  }
   if (!options.sweep_steps.empty() || !options.sweep_draws.empty()) {
     return run_sweep(options, *frames);
   }

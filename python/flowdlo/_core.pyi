@@ -39,6 +39,7 @@ class Estimator:
         mask: npt.NDArray[np.uint8],
         intrinsics: tuple[float, float, float, float],
         color_bgr: npt.NDArray[np.uint8] | None,
+        instances: npt.NDArray[np.uint16] | None,
         hints: dict[str, Any],
         tracked: bool = ...,
     ) -> dict[str, Any]: ...

@@ -118,6 +118,7 @@ class Estimator:
         color_bgr: npt.ArrayLike | None = None,
         *,
         depth_scale: float | None = None,
+        instances: npt.ArrayLike | None = None,
         first_end: npt.ArrayLike | None = None,
         ends: Sequence[npt.ArrayLike] = (),
         rope_length_m: float | None = None,
@@ -132,6 +133,8 @@ class Estimator:
         color_bgr: uint8 [height, width, 3], where there is colour: it helps where the mask leaves
             doubt. Of an RGB image pass image[..., ::-1].
         depth_scale: metres a unit of an integer depth; 0.001 for millimetres.
+        instances: integers [height, width], where a segmentation knows which pixel is whose rope's;
+            0: none or unknown. Off the mask they hide the rope.
         first_end: a place, whose nearest end becomes node 0: a pixel (u, v), or a point (x, y, z)
             of the camera frame in metres.
         ends: places of ends of the rope, two at most: evidence for the way through the mask.
@@ -145,12 +148,9 @@ class Estimator:
         Raises BadInput, NoEvidence, NoPath, DeviceLost or OutOfMemory. A rejected prediction is no
         failure: the estimate is then the prior, and `source` says so.
         """
-        return _estimate(
-            self._core.estimate(
-                *_frame(depth_m, mask, intrinsics, color_bgr, depth_scale),
-                _hints(first_end, ends, rope_length_m, previous),
-            )
-        )
+        frame = _frame(depth_m, mask, intrinsics, color_bgr, depth_scale)
+        hints = _hints(first_end, ends, rope_length_m, previous)
+        return _estimate(self._core.estimate(*frame, _labels(instances, frame[0]), hints))
 
     def estimate_ropes(
         self,
@@ -170,8 +170,7 @@ class Estimator:
         Everything else is as for `estimate`.
         """
         frame = _frame(depth_m, mask, intrinsics, color_bgr, depth_scale)
-        labels = None if instances is None else arguments.labels(instances, frame[0])
-        return Ropes(**_ropes(self._core.estimate_ropes(*frame, labels)))
+        return Ropes(**_ropes(self._core.estimate_ropes(*frame, _labels(instances, frame[0]))))
 
     @property
     def device(self) -> str:
@@ -234,6 +233,7 @@ class Tracker(Estimator):
         color_bgr: npt.ArrayLike | None = None,
         *,
         depth_scale: float | None = None,
+        instances: npt.ArrayLike | None = None,
         first_end: npt.ArrayLike | None = None,
         ends: Sequence[npt.ArrayLike] = (),
         rope_length_m: float | None = None,
@@ -243,13 +243,9 @@ class Tracker(Estimator):
         out, is the estimate of the frame before. After a frame that raised, the one before it counts;
         after more than `patience` of them, none.
         """
-        return _estimate(
-            self._core.estimate(
-                *_frame(depth_m, mask, intrinsics, color_bgr, depth_scale),
-                _hints(first_end, ends, rope_length_m, previous),
-                True,
-            )
-        )
+        frame = _frame(depth_m, mask, intrinsics, color_bgr, depth_scale)
+        hints = _hints(first_end, ends, rope_length_m, previous)
+        return _estimate(self._core.estimate(*frame, _labels(instances, frame[0]), hints, True))
 
     def estimate_ropes(
         self,
@@ -265,8 +261,8 @@ class Tracker(Estimator):
         which is decided for all at once, so that they move least in total.
         """
         frame = _frame(depth_m, mask, intrinsics, color_bgr, depth_scale)
-        labels = None if instances is None else arguments.labels(instances, frame[0])
-        return TrackedRopes(**_ropes(self._core.track_ropes(*frame, labels)))
+        found = self._core.track_ropes(*frame, _labels(instances, frame[0]))
+        return TrackedRopes(**_ropes(found))
 
     def forget(self) -> None:
         """Forgets the ropes of the frames before; numbers go on from where they were."""
@@ -290,6 +286,12 @@ def _frame(
     color = arguments.color(color_bgr)
     arguments.same_size(metres, rope, color)
     return metres, rope, arguments.intrinsics(intrinsics), color
+
+
+def _labels(
+    instances: npt.ArrayLike | None, depth_m: npt.NDArray[np.float32]
+) -> npt.NDArray[np.uint16] | None:
+    return None if instances is None else arguments.labels(instances, depth_m)
 
 
 def _hints(

@@ -192,6 +192,8 @@ class FrameFolder:
     mask: uint8 [height, width], the rope where over 127.
     intrinsics: of the camera that all images are aligned to, pixels.
     color_bgr: uint8 [height, width, 3], or None where the folder has no color.png.
+    instances: uint16 [height, width], which rope each pixel is of, from 1, 0: none or unknown; or
+        None where the folder has no instances.png.
     truth: float32 [64, 3], metres, camera frame, or None where the folder has no truth.csv.
     """
 
@@ -200,6 +202,7 @@ class FrameFolder:
     mask: npt.NDArray[np.uint8]
     intrinsics: Intrinsics
     color_bgr: npt.NDArray[np.uint8] | None
+    instances: npt.NDArray[np.uint16] | None
     truth: npt.NDArray[np.float32] | None
 
     def __repr__(self) -> str:

@@ -177,6 +177,45 @@ TEST(CRopes, WhatIsAskedForAndNotThereIsAnError) {
       << "a later estimate forgets them";
 }
 
+TEST(CRopes, LabelsTellWhichPixelIsWhose) {
+  const TwoWaves waves;
+  std::vector<std::uint16_t> labels(waves.mask.size(), 0);
+  for (std::size_t p = 0; p < labels.size(); ++p) {
+    if (waves.mask[p] > 127) labels[p] = p < labels.size() / 2 ? 7 : 4;
+  }
+  Frame of_cpp = waves.frame();
+  of_cpp.instances = labels;
+  auto reference = make_cpp(1);
+  const auto expected = reference.estimate_ropes(of_cpp);
+  ASSERT_TRUE(expected) << expected.error().message;
+  ASSERT_EQ(expected->ropes.size(), 2U);
+  // As two channels, of which the second is none of ours.
+  std::vector<std::uint16_t> spread(2 * labels.size(), 9);
+  for (std::size_t p = 0; p < labels.size(); ++p) spread[2 * p] = labels[p];
+  const Handle estimator = make(1);
+  for (const bool packed : {true, false}) {
+    flowdlo_frame frame = c_frame(waves.frame());
+    frame.instances = packed ? flowdlo_image{labels.data(), 0, 0, FLOWDLO_PIXEL_U16, 0}
+                             : flowdlo_image{spread.data(), 0, 4, FLOWDLO_PIXEL_U16, 0};
+    int ropes = 0;
+    ASSERT_EQ(flowdlo_estimator_estimate_ropes(estimator.get(), &frame, &ropes, nullptr),
+              FLOWDLO_OK)
+        << flowdlo_last_error();
+    ASSERT_EQ(ropes, 2);
+    for (int i = 0; i < ropes; ++i) {
+      flowdlo_estimate rope = empty_estimate();
+      ASSERT_EQ(flowdlo_estimator_rope(estimator.get(), i, &rope), FLOWDLO_OK);
+      EXPECT_TRUE(same_nodes(rope, expected->ropes[static_cast<std::size_t>(i)].nodes)) << i;
+    }
+  }
+  flowdlo_frame wrong = c_frame(waves.frame());
+  wrong.instances = {labels.data(), 0, 0, FLOWDLO_PIXEL_U8, 0};
+  int ropes = 0;
+  EXPECT_EQ(flowdlo_estimator_estimate_ropes(estimator.get(), &wrong, &ropes, nullptr),
+            FLOWDLO_BAD_INPUT);
+  EXPECT_THAT(flowdlo_last_error(), HasSubstr("flowdlo_frame.instances.pixel"));
+}
+
 TEST(CHints, TheFrameBeforeKeepsTheOrderOfTheEnds) {
   const WaveFrame wave;
   const Handle estimator = make(1);

@@ -327,6 +327,41 @@ TEST(Curve, RefusesWhatIsNoNumberOfPointsAndNodesThatAreNotFinite) {
   EXPECT_THAT(curve.error().message, HasSubstr("at node 9"));
 }
 
+/// By the weights that ship, which bring networks that move nodes.
+TEST(KnownEnds, AnEndGoesWhereItIsGivenIfThatIsNear) {
+  auto estimator = Estimator::create({.weights = FLOWDLO_DEFAULT_WEIGHTS, .device = "cpu"});
+  ASSERT_TRUE(estimator) << estimator.error().message;
+  const WaveFrame wave;
+  const auto seen = estimator->estimate(wave.frame());
+  ASSERT_TRUE(seen) << seen.error().message;
+  const auto& first = seen->nodes[0];
+  const auto& next = seen->nodes[4];
+  const float length = static_cast<float>(geometry::distance(first, next));
+  // Two centimetres farther on, and five to its side.
+  const auto ahead = [&](float by_m) {
+    return Point3{first.x + by_m / length * (first.x - next.x),
+                  first.y + by_m / length * (first.y - next.y),
+                  first.z + by_m / length * (first.z - next.z)};
+  };
+  const Point3 beyond = ahead(0.02F);
+  const Pixel beyond_px{wave.camera.fx * beyond.x / beyond.z + wave.camera.cx,
+                        wave.camera.fy * beyond.y / beyond.z + wave.camera.cy};
+  for (const Place& place : {Place(beyond), Place(beyond_px), Place(ahead(-0.01F))}) {
+    Hints hints;
+    hints.ends = {place};
+    const auto told = estimator->estimate(wave.frame(), hints);
+    ASSERT_TRUE(told) << told.error().message;
+    const Point3 wanted = place == Place(ahead(-0.01F)) ? ahead(-0.01F) : beyond;
+    EXPECT_LT(geometry::distance(told->nodes.front(), wanted), 0.004);
+    EXPECT_LT(geometry::distance(told->nodes.back(), seen->nodes.back()), 0.002);
+  }
+  Hints elsewhere;
+  elsewhere.ends = {Point3{first.x, first.y + 0.1F, first.z}};
+  const auto same = estimator->estimate(wave.frame(), elsewhere);
+  ASSERT_TRUE(same) << same.error().message;
+  EXPECT_LT(geometry::mean_distance(same->nodes, seen->nodes), 1e-4);
+}
+
 /// By the weights that ship, which bring a network of tips.
 TEST(KnownLength, WhatTheFrameLacksOfItIsAddedAtTheEndsAndTheFrameBeforeKeepsIt) {
   auto estimator = Estimator::create({.weights = FLOWDLO_DEFAULT_WEIGHTS, .device = "cpu"});

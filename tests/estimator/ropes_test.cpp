@@ -167,6 +167,53 @@ TEST(EstimateRopes, TheNumberOfThreadsChangesNothing) {
   EXPECT_EQ(a.instances, b.instances);
 }
 
+TEST(EstimateRopes, ALabelOfAFewPixelsCostsNoOtherRope) {
+  auto scene = make_ropes(RopesKind::kCrossing, 2, 0);
+  std::size_t spoiled = 0;
+  for (std::size_t p = 0, seen = 0; p < scene.image.mask.size() && spoiled < 15; ++p) {
+    if (scene.image.mask[p] <= 127 || ++seen % 97 != 0) continue;
+    scene.image.instances[p] = 9;
+    ++spoiled;
+  }
+  ASSERT_EQ(spoiled, 15U);
+  auto estimator = make(0);
+  const Ropes found = estimate(estimator, scene.frame(true));
+  EXPECT_EQ(found.ropes.size(), 2U);
+  for (const std::uint16_t label : found.instances) EXPECT_LE(label, 2);
+}
+
+TEST(EstimateRopes, OneMoreThanThereAreIsNotBelieved) {
+  const auto scene = make_ropes(RopesKind::kCrossing, 2, 0);
+  auto right = make_with_field(2);
+  auto wrong = make_with_field(3);
+  for (const Estimate& rope : estimate(right, scene.frame()).ropes) {
+    EXPECT_GT(rope.confidence, 0.8F);
+  }
+  const Ropes found = estimate(wrong, scene.frame());
+  ASSERT_EQ(found.ropes.size(), 3U);
+  int believed = 0;
+  for (const Estimate& rope : found.ropes) believed += rope.confidence > 0.5F ? 1 : 0;
+  EXPECT_LE(believed, 1);
+}
+
+TEST(EstimateRopes, ABudgetLeavesTheFieldItsWord) {
+  const auto scene = make_ropes(RopesKind::kCrossing, 3, 0);
+  Config config{.weights = FLOWDLO_WEIGHTS, .device = "cpu"};
+  config.field_weights = FLOWDLO_FIELD_WEIGHTS;
+  config.threads = 1;
+  config.budget_ms = 1;
+  config.ropes = 0;
+  auto bounded = Estimator::create(config);
+  ASSERT_TRUE(bounded) << bounded.error().message;
+  auto unbounded = make_with_field(0);
+  const Ropes soon = estimate(*bounded, scene.frame());
+  const Ropes whole = estimate(unbounded, scene.frame());
+  ASSERT_EQ(soon.ropes.size(), whole.ropes.size());
+  for (const Estimate& rope : soon.ropes) {
+    EXPECT_EQ(std::count(rope.left_out.begin(), rope.left_out.end(), LeftOut::kField), 0);
+  }
+}
+
 TEST(EstimateRopes, LabelsThatAreNotThereAndTooManyAreErrors) {
   auto scene = make_ropes(RopesKind::kCrossing, 2, 0);
   auto estimator = make(0);

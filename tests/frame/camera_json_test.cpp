@@ -78,6 +78,16 @@ TEST(CameraJson, MatrixMustHoldNineNumbers) {
   EXPECT_THAT(fault_of(R"({"cam_K": null, "depth_scale": 1})"), HasSubstr("9 numbers"));
 }
 
+TEST(CameraJson, DistortionIsRefusedUnlessItIsNone) {
+  const std::string plain =
+      R"({"cam_K": [601, 0, 320.5, 0, 602, 240.25, 0, 0, 1], "depth_scale": 1)";
+  for (const char* lens :
+       {R"("D": [0.1, 0, 0, 0, 0])", R"("dist_coeffs": [[0.1, 0]])", R"("k1": -0.2)"}) {
+    EXPECT_THAT(fault_of(plain + ", " + lens + "}"), HasSubstr("rectified")) << lens;
+  }
+  EXPECT_EQ(fault_of(plain + R"(, "D": [0, 0, 0, 0, 0], "k1": 0})"), "");
+}
+
 TEST(CameraJson, TwoFormsAtOnceAreRefused) {
   EXPECT_THAT(fault_of(R"({"fx": 1, "cam_K": [1, 0, 1, 0, 1, 1, 0, 0, 1], "depth_scale": 1})"),
               HasSubstr("keep one"));

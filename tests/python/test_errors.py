@@ -127,8 +127,8 @@ def test_the_compiled_module_holds_its_callers_to_packed_arrays(ring):
     core = _core.Estimator({"device": "cpu", "euler_steps": 1, "draws": 1})
     camera = tuple(ring.intrinsics)
     with pytest.raises(TypeError):
-        core.estimate(np.asfortranarray(ring.depth_m), ring.mask, camera, None)
+        core.estimate(np.asfortranarray(ring.depth_m), ring.mask, camera, None, None)
     with pytest.raises(flowdlo.BadInput, match="two dimensions"):
-        core.estimate(ring.depth_m.ravel(), ring.mask, camera, None)
+        core.estimate(ring.depth_m.ravel(), ring.mask, camera, None, None)
     with pytest.raises(flowdlo.BadInput, match="Frame.mask"):
-        core.estimate(ring.depth_m, ring.mask[:5].copy(), camera, None)
+        core.estimate(ring.depth_m, ring.mask[:5].copy(), camera, None, None)

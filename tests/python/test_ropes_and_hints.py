@@ -1,5 +1,9 @@
 """Several ropes, hints, a budget and the dense curve."""
 
+import json
+import struct
+import zlib
+
 import numpy as np
 import pytest
 
@@ -15,6 +19,31 @@ def bars(*rows: int) -> tuple[np.ndarray, np.ndarray]:
     for number, row in enumerate(rows, start=1):
         labels[row - 4 : row + 5, 40 : 280 - 10 * number] = number
     return np.where(labels > 0, 0.5, 0.6).astype(np.float32), labels
+
+
+def flowdlo_frame_folder(folder, depth_m: np.ndarray, labels: np.ndarray) -> None:
+    """Images as PNG of 16 bits, by hand: no picture library is needed."""
+
+    def png(file, image):
+        def chunk(kind, body):
+            checksum = zlib.crc32(kind + body)
+            return struct.pack(">I", len(body)) + kind + body + struct.pack(">I", checksum)
+
+        height, width = image.shape
+        bits = 8 * image.dtype.itemsize
+        rows = b"".join(b"\0" + row.astype(f">u{bits // 8}").tobytes() for row in image)
+        header = struct.pack(">IIBBBBB", width, height, bits, 0, 0, 0, 0)
+        parts = ((b"IHDR", header), (b"IDAT", zlib.compress(rows)), (b"IEND", b""))
+        file.write_bytes(b"\x89PNG\r\n\x1a\n" + b"".join(chunk(*part) for part in parts))
+
+    folder.mkdir()
+    png(folder / "depth.png", np.round(depth_m * 1000).astype(np.uint16))
+    png(folder / "mask.png", np.where(labels > 0, 255, 0).astype(np.uint8))
+    png(folder / "instances.png", labels)
+    height, width = labels.shape
+    names = ("fx", "fy", "cx", "cy")
+    camera = dict(zip(names, CAMERA), width=width, height=height, depth_scale=0.001)
+    (folder / "camera.json").write_text(json.dumps(camera))
 
 
 @pytest.fixture(scope="module")
@@ -40,6 +69,22 @@ def test_labels_tell_which_pixel_is_whose(estimator):
     depth_m, labels = bars(100, 112)
     found = estimator.estimate_ropes(depth_m, labels > 0, CAMERA, instances=labels.astype(np.int64))
     assert len(found.ropes) == 2
+
+
+def test_a_folder_brings_its_labels(estimator, tmp_path):
+    depth_m, labels = bars(100, 112)
+    folder = tmp_path / "frame"
+    flowdlo_frame_folder(folder, depth_m, labels)
+    frame = flowdlo.load_frame_folder(folder)
+    assert np.array_equal(frame.instances, labels)
+    by_labels = estimator.estimate_ropes(
+        frame.depth_m, frame.mask, frame.intrinsics, instances=frame.instances
+    )
+    assert len(by_labels.ropes) == 2
+    one = estimator.estimate(
+        depth_m, labels == 1, CAMERA, instances=np.where(labels == 2, 2, 0)
+    )
+    assert np.abs(one.nodes[:, 1].mean() - (100 - 120) / 300 * 0.5) < 0.01
 
 
 @pytest.mark.parametrize(

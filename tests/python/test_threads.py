@@ -60,7 +60,7 @@ def test_other_threads_run_during_an_estimate(ring):
     core = _core.Estimator({"device": "cpu", "draws": 8, "threads": 1})
     camera = tuple(ring.intrinsics)
     found = max(
-        ticks_within(lambda: core.estimate(ring.depth_m, ring.mask, camera, None)) for _ in range(3)
+        ticks_within(lambda: core.estimate(ring.depth_m, ring.mask, camera, None, None)) for _ in range(3)
     )
     assert found > 5
 

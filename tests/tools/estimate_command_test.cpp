@@ -134,6 +134,17 @@ TEST(EstimateCommand, RopesOfAStreamKeepTheirNumbers) {
   EXPECT_FALSE(estimate_json_of(scratch.path(), "both").contains("missing"));
 }
 
+TEST(EstimateCommand, ResultsDoNotGoWhereTheFrameIs) {
+  const TemporaryFolder scratch;
+  const auto folder = write_frame(scratch.path());
+  test::write_text(folder / "curve.csv", "mine");
+  const auto outcome = test::run_flowdlo(
+      scratch.path(), {"estimate", folder.string(), "--out", scratch.path().string()});
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_THAT(outcome.err, HasSubstr("is a frame itself"));
+  EXPECT_EQ(test::read_text(folder / "curve.csv"), "mine");
+}
+
 TEST(EstimateCommand, LabelsBesideAFrameTellItsRopes) {
   const TemporaryFolder scratch;
   const auto folder = write_frame(scratch.path());

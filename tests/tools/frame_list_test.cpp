@@ -42,6 +42,29 @@ TEST(FrameList, FolderThatIsNoFrameStaysInTheList) {
               ElementsAre("empty", "none"));
 }
 
+TEST(FrameList, FrameOfADataSetThatLacksItsCameraStaysInTheList) {
+  const TemporaryFolder scratch;
+  fs::create_directories(scratch.path() / "set" / "a");
+  fs::create_directories(scratch.path() / "set" / "b");
+  fs::create_directories(scratch.path() / "set" / "notes");
+  test::write_text(scratch.path() / "set" / "a" / "camera.json", "{}");
+  test::write_text(scratch.path() / "set" / "b" / "depth.png", "");
+  const auto frames = list_frames({scratch.path() / "set"});
+  ASSERT_TRUE(frames);
+  ASSERT_EQ(frames->size(), 2U);
+  EXPECT_EQ((*frames)[1].name, "b");
+}
+
+TEST(FrameList, WhatIsNotThereIsNamed) {
+  const TemporaryFolder scratch;
+  const auto frames = list_frames({scratch.path(), scratch.path() / "nothing"});
+  ASSERT_TRUE(frames);
+  const auto there = all_there(*frames);
+  ASSERT_FALSE(there);
+  EXPECT_EQ(there.error().code, ErrorCode::kIo);
+  EXPECT_NE(there.error().message.find("nothing"), std::string::npos);
+}
+
 TEST(FrameList, TwoFramesOfOneNameAreRefused) {
   const TemporaryFolder parent;
   const auto frames = list_frames(
