@@ -246,6 +246,13 @@ support::ExitCode run(EstimateOptions& options) {
     complain(tracker.error());
     return support::ExitCode::kUsage;
   }
+  const bool blind = tracker->estimator()->field_device().empty();
+  if (options.config.field != FieldChoice::kOff && blind && !options.quiet) {
+    support::tell_error(
+        "estimate: there is no field.safetensors beside the weights: without a strand field "
+        "strands "
+        "that touch are told apart badly; give --field-weights, or --field off\n");
+  }
   Sequence sequence{.tracker = *std::move(tracker), .hints = options.hints};
   if (!options.video.empty()) {
     auto video = VideoFile::open(options.video, options.frames_per_s);

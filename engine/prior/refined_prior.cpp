@@ -124,10 +124,11 @@ std::vector<Vector2f> inside(const path::Path& path, const Frame& frame) {
 }
 
 Error no_evidence(const char* expected, int got) {
-  return Error{ErrorCode::kNoEvidence,
-               fmt::format("prior::refine: expected {}, got none of {}; check that depth and mask "
-                           "belong to the same camera",
-                           expected, got)};
+  return Error{
+      ErrorCode::kNoEvidence,
+      fmt::format("prior::refine: expected {}, got none of {}; check that depth is in metres, "
+                  "and that depth and mask belong to the same camera",
+                  expected, got)};
 }
 
 }  // namespace
