@@ -141,34 +141,28 @@ void for_each_pixel(const Strided& image, const Rectangle& region, const At& at)
   }
 }
 
-std::span<const float> depth_of(const Strided& image, const Rectangle& region, double scale_m,
-                                std::vector<float>& copy) {
-  if (image.pixel == FLOWDLO_PIXEL_F32 && image.packed(region)) {
-    return {reinterpret_cast<const float*>(image.first), region.pixels()};
-  }
-  copy.resize(region.pixels());
-  if (image.pixel == FLOWDLO_PIXEL_F32) {
-    for_each_pixel(image, region, [&](const std::byte* source, std::size_t pixel) {
-      std::memcpy(&copy[pixel], source, sizeof(float));
-    });
-  } else {
-    for_each_pixel(image, region, [&](const std::byte* source, std::size_t pixel) {
-      std::uint16_t units = 0;
-      std::memcpy(&units, source, sizeof(units));
-      copy[pixel] = geometry::metres(units, scale_m);
-    });
-  }
-  return copy;
-}
-
-std::span<const std::uint8_t> mask_of(const Strided& image, const Rectangle& region,
-                                      std::vector<std::uint8_t>& copy) {
+/// Of an image whose pixels are such values: a view where they are packed, else a copy.
+template <class Value>
+std::span<const Value> values_of(const Strided& image, const Rectangle& region,
+                                 std::vector<Value>& copy) {
   if (image.packed(region)) {
-    return {reinterpret_cast<const std::uint8_t*>(image.first), region.pixels()};
+    return {reinterpret_cast<const Value*>(image.first), region.pixels()};
   }
   copy.resize(region.pixels());
   for_each_pixel(image, region, [&](const std::byte* source, std::size_t pixel) {
-    copy[pixel] = static_cast<std::uint8_t>(*source);
+    std::memcpy(&copy[pixel], source, sizeof(Value));
+  });
+  return copy;
+}
+
+std::span<const float> depth_of(const Strided& image, const Rectangle& region, double scale_m,
+                                std::vector<float>& copy) {
+  if (image.pixel == FLOWDLO_PIXEL_F32) return values_of(image, region, copy);
+  copy.resize(region.pixels());
+  for_each_pixel(image, region, [&](const std::byte* source, std::size_t pixel) {
+    std::uint16_t units = 0;
+    std::memcpy(&units, source, sizeof(units));
+    copy[pixel] = geometry::metres(units, scale_m);
   });
   return copy;
 }
@@ -184,18 +178,6 @@ std::span<const std::uint8_t> color_of(const Strided& image, const Rectangle& re
     copy[3 * pixel] = static_cast<std::uint8_t>(source[blue]);
     copy[3 * pixel + 1] = static_cast<std::uint8_t>(source[1]);
     copy[3 * pixel + 2] = static_cast<std::uint8_t>(source[2 - blue]);
-  });
-  return copy;
-}
-
-std::span<const std::uint16_t> labels_of(const Strided& image, const Rectangle& region,
-                                         std::vector<std::uint16_t>& copy) {
-  if (image.packed(region)) {
-    return {reinterpret_cast<const std::uint16_t*>(image.first), region.pixels()};
-  }
-  copy.resize(region.pixels());
-  for_each_pixel(image, region, [&](const std::byte* source, std::size_t pixel) {
-    std::memcpy(&copy[pixel], source, sizeof(std::uint16_t));
   });
   return copy;
 }
@@ -247,9 +229,9 @@ Result<Frame> frame_of(const flowdlo_frame& given, Copies& copies, const Uses& u
   if (depth.first != nullptr) {
     frame.depth_m = depth_of(depth, region, given.depth_scale_m, copies.depth_m);
   }
-  if (mask.first != nullptr) frame.mask = mask_of(mask, region, copies.mask);
+  if (mask.first != nullptr) frame.mask = values_of(mask, region, copies.mask);
   if (color.first != nullptr) frame.color_bgr = color_of(color, region, copies.color_bgr);
-  if (instances.first != nullptr) frame.instances = labels_of(instances, region, copies.instances);
+  if (instances.first != nullptr) frame.instances = values_of(instances, region, copies.instances);
   return frame;
 }
 

@@ -21,6 +21,7 @@ class KnownRopes {
 
   void forget() { known_.clear(); }
   void configure(const TrackerConfig& config) { config_ = config; }
+  [[nodiscard]] const TrackerConfig& config() const { return config_; }
 
  private:
   struct Known {

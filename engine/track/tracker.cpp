@@ -33,8 +33,7 @@ Result<void> check(const TrackerConfig& config) {
 
 struct FLOWDLO_HIDDEN Tracker::Impl {
   Estimator estimator;
-  TrackerConfig config;
-  track::KnownRopes ropes{config};
+  track::KnownRopes ropes;
   std::optional<Centerline> previous{};  ///< of the one rope
   int failed = 0;                        ///< frames in a row since then
 
@@ -46,10 +45,12 @@ struct FLOWDLO_HIDDEN Tracker::Impl {
 };
 
 Result<Tracker> Tracker::create(const Config& config, const TrackerConfig& tracking) {
-  if (auto checked = check(tracking); !checked) return checked.error();
-  auto estimator = Estimator::create(config);
-  if (!estimator) return estimator.error();
-  return create(*std::move(estimator), tracking);
+  return guard::guarded("Tracker::create", [&]() -> Result<Tracker> {
+    if (auto checked = check(tracking); !checked) return checked.error();
+    auto estimator = Estimator::create(config);
+    if (!estimator) return estimator.error();
+    return create(*std::move(estimator), tracking);
+  });
 }
 
 Result<Tracker> Tracker::create(Estimator estimator, const TrackerConfig& tracking) {
@@ -60,7 +61,8 @@ Result<Tracker> Tracker::create(Estimator estimator, const TrackerConfig& tracki
                    "Tracker: expected an estimator in use, got one that was moved from; make a "
                    "new one"};
     }
-    return Tracker(std::unique_ptr<Impl>(new Impl{std::move(estimator), tracking}));
+    return Tracker(
+        std::unique_ptr<Impl>(new Impl{std::move(estimator), track::KnownRopes(tracking)}));
   });
 }
 
@@ -74,7 +76,7 @@ Result<Estimate> Tracker::run(const Frame& frame, const Hints& hints, Tensors* t
     if (estimate) {
       impl_->previous = estimate->nodes;
       impl_->failed = 0;
-    } else if (++impl_->failed > impl_->config.patience) {
+    } else if (++impl_->failed > impl_->ropes.config().patience) {
       impl_->previous.reset();
     }
     return estimate;
@@ -107,7 +109,6 @@ Result<void> Tracker::configure(const TrackerConfig& tracking) {
   return guard::guarded("Tracker::configure", [&]() -> Result<void> {
     if (auto fine = usable(); !fine) return fine.error();
     if (auto checked = check(tracking); !checked) return checked.error();
-    impl_->config = tracking;
     impl_->ropes.configure(tracking);
     return {};
   });

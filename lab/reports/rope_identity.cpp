@@ -20,23 +20,22 @@ track::Alignment align(const Estimate& now, const Estimate& before) {
 void RopeIdentity::add(const std::vector<Estimate>& found, const std::vector<int>& numbers) {
   for (std::size_t i = 0; i < found.size(); ++i) {
     ++ropes;
-    std::optional<std::size_t> nearest;
+    std::size_t nearest = 0;
+    std::optional<track::Alignment> alignment;
     for (std::size_t k = 0; k < before_.size(); ++k) {
-      if (nearest &&
-          align(found[i], before_[k]).apart_m >= align(found[i], before_[*nearest]).apart_m) {
-        continue;
-      }
+      const track::Alignment other = align(found[i], before_[k]);
+      if (alignment && other.apart_m >= alignment->apart_m) continue;
+      alignment = other;
       nearest = k;
     }
-    if (!nearest) continue;
-    const Estimate& same = before_[*nearest];
-    mistaken += numbers_[*nearest] != numbers[i] ? 1 : 0;
-    const track::Alignment alignment = align(found[i], same);
+    if (!alignment) continue;
+    const Estimate& same = before_[nearest];
+    mistaken += numbers_[nearest] != numbers[i] ? 1 : 0;
     if (found[i].closed && same.closed) {
       const double moved_m = geometry::distance(found[i].nodes.front(), same.nodes.front());
-      begun += moved_m > alignment.apart_m + kBegin_m ? 1 : 0;
+      begun += moved_m > alignment->apart_m + kBegin_m ? 1 : 0;
     } else {
-      exchanged += alignment.reversed ? 1 : 0;
+      exchanged += alignment->reversed ? 1 : 0;
     }
   }
   before_ = found;

@@ -62,6 +62,8 @@ class Estimator:
     other; estimators of their own run at the same time. After a fork make a new one in the child.
     """
 
+    _tracked = False  # each estimate by heed of the one before
+
     def __init__(
         self,
         *,
@@ -150,7 +152,8 @@ class Estimator:
         """
         frame = _frame(depth_m, mask, intrinsics, color_bgr, depth_scale)
         hints = _hints(first_end, ends, rope_length_m, previous)
-        return _estimate(self._core.estimate(*frame, _labels(instances, frame[0]), hints))
+        labels = _labels(instances, frame[0])
+        return _estimate(self._core.estimate(*frame, labels, hints, self._tracked))
 
     def estimate_ropes(
         self,
@@ -214,8 +217,14 @@ class Tracker(Estimator):
     most_moved_m: metres; a rope that moved farther from one frame to the next is another rope.
     patience: frames that a rope may be missing from and keep its number.
 
+    `estimate` is Estimator's, whose `previous`, if it is left out, is the estimate of the frame
+    before. After a frame that raised, the one before it counts; after more than `patience` of them,
+    none.
+
     Every other argument is Estimator's. One tracker for each camera. Raises as Estimator does.
     """
+
+    _tracked = True
 
     def __init__(
         self, *, most_moved_m: float = 0.1, patience: int = 30, **estimator: Any
@@ -224,28 +233,6 @@ class Tracker(Estimator):
         self._core.configure_tracking(
             arguments.number("most_moved_m", most_moved_m), arguments.whole("patience", patience)
         )
-
-    def estimate(
-        self,
-        depth_m: npt.ArrayLike,
-        mask: npt.ArrayLike,
-        intrinsics: Any,
-        color_bgr: npt.ArrayLike | None = None,
-        *,
-        depth_scale: float | None = None,
-        instances: npt.ArrayLike | None = None,
-        first_end: npt.ArrayLike | None = None,
-        ends: Sequence[npt.ArrayLike] = (),
-        rope_length_m: float | None = None,
-        previous: Estimate | npt.ArrayLike | None = None,
-    ) -> Estimate:
-        """The rope in the stream's next frame: Estimator.estimate, and `previous`, if it is left
-        out, is the estimate of the frame before. After a frame that raised, the one before it counts;
-        after more than `patience` of them, none.
-        """
-        frame = _frame(depth_m, mask, intrinsics, color_bgr, depth_scale)
-        hints = _hints(first_end, ends, rope_length_m, previous)
-        return _estimate(self._core.estimate(*frame, _labels(instances, frame[0]), hints, True))
 
     def estimate_ropes(
         self,
