@@ -1,6 +1,7 @@
 #include "refine/network.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <string>
 #include <utility>
@@ -87,6 +88,16 @@ Result<std::array<Offset, kNodes>> Network::see(const Strip& strip) {
     Offset& offset = offsets[j / kStationsOfNode];
     offset.deep += of_station[0] / kStationsOfNode;
     offset.aside += of_station[1] / kStationsOfNode;
+    offset.laid += of_station[2] / kStationsOfNode;
+  }
+  std::array<float, kNodes> log_odds{};
+  for (std::size_t i = 0; i < kNodes; ++i) log_odds[i] = offsets[i].laid;
+  for (std::size_t i = 0; i < kNodes; ++i) {
+    const std::size_t first = i - std::min<std::size_t>(i, weights::kRefineAlike);
+    const std::size_t last = std::min<std::size_t>(i + weights::kRefineAlike, kNodes - 1);
+    float sum = 0;
+    for (std::size_t k = first; k <= last; ++k) sum += log_odds[k];
+    offsets[i].laid = 1 / (1 + std::exp(-sum / static_cast<float>(last - first + 1)));
   }
   return offsets;
 }

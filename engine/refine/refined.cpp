@@ -69,8 +69,13 @@ Result<Refined> refined(const Curve& curve, const Frame& frame, Network& network
   Centerline nodes = curve.nodes;
   for (std::size_t i = 0; i < kNodes; ++i) {
     const Offset& offset = (*offsets)[i];
-    if (!frames[i] || !std::isfinite(offset.deep) || !std::isfinite(offset.aside)) continue;
-    const Eigen::Vector3f moved = geometry::to_eigen(nodes[i]) +
+    if (!frames[i] || !std::isfinite(offset.deep) || !std::isfinite(offset.aside) ||
+        !std::isfinite(offset.laid)) {
+      continue;
+    }
+    const float share =
+        strip->table_share[i] > 0 ? 1 + offset.laid * (strip->table_share[i] - 1) : 1;
+    const Eigen::Vector3f moved = share * geometry::to_eigen(nodes[i]) +
                                   curve.radius_m * (within_reach(offset.deep) * frames[i]->deep +
                                                     within_reach(offset.aside) * frames[i]->aside);
     if (moved.z() > geometry::kLeastDepth_m) nodes[i] = geometry::to_point(moved);

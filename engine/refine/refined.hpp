@@ -11,7 +11,7 @@
 
 namespace flowdlo::refine {
 
-/// A node is moved no farther than this, deep and aside, radii.
+/// A node is moved no farther than this, deep and aside, radii, beside its way to the table.
 inline constexpr float kMostOffset = 2;
 
 struct Refined {

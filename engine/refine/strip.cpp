@@ -10,7 +10,9 @@
 #include "geometry/depth.hpp"
 #include "geometry/pixel.hpp"
 #include "geometry/polyline.hpp"
+#include "geometry/quantile.hpp"
 #include "refine/local_frame.hpp"
+#include "refine/table.hpp"
 
 namespace flowdlo::refine {
 namespace {
@@ -108,6 +110,96 @@ void put_across(const Station& station, const Frame& frame, float radius_m, std:
   }
 }
 
+constexpr float kNearTable = 2.5F;  // misfits, and a radius in any case
+constexpr float kLies = 0.25F;      // share of nodes near it from which a rope may lie on the table
+constexpr float kMostOff = 6;       // misfits
+constexpr float kMostWay = 200;     // radii
+constexpr std::size_t kLeastSeen = 4;  // nodes
+
+/// Where a node lies beside the table.
+struct BesideTable {
+  float share = 1;     ///< share_to()
+  float way_m = 0;     ///< to it, deep
+  float misfit_m = 0;  ///< of the table there
+};
+
+/// Nothing where the table is seen too flatly beside most nodes.
+std::optional<std::array<BesideTable, kNodes>> beside_table(const Curve& curve,
+                                                            const Table& table) {
+  std::array<BesideTable, kNodes> result;
+  std::size_t known = 0;
+  const auto frames = local_frames(curve.nodes);
+  for (std::size_t i = 0; i < kNodes; ++i) {
+    const Vector3f node = geometry::to_eigen(curve.nodes[i]);
+    if (!frames[i]) continue;
+    const auto share = share_to(table, node, curve.radius_m);
+    if (!share || !std::isfinite(*share)) continue;
+    result[i] = {*share, (*share - 1) * node.dot(frames[i]->deep),
+                 node.z() * node.z() * table.misfit};
+    ++known;
+  }
+  if (2 * known < kNodes) return std::nullopt;
+  return result;
+}
+
+/// How nodes with support lie beside the table, in its misfits.
+struct Lie {
+  float seen = 0;  ///< share of nodes that have support
+  float near = 0;  ///< share of those that are near the table; 0 of too few, as what follows
+  float median = 0;
+  float spread = 0;
+};
+
+Lie lie_of(const Curve& curve, const std::array<BesideTable, kNodes>& beside) {
+  std::vector<float> offs;
+  float near = 0;
+  for (std::size_t i = 0; i < kNodes; ++i) {
+    if (curve.unseen_m[i] > 0 || beside[i].misfit_m <= 0) continue;
+    offs.push_back(beside[i].way_m / beside[i].misfit_m);
+    const float reach_m = std::max(kNearTable * beside[i].misfit_m, curve.radius_m);
+    near += std::abs(beside[i].way_m) < reach_m ? 1 : 0;
+  }
+  Lie lie;
+  lie.seen = static_cast<float>(offs.size()) / kNodes;
+  if (offs.size() < kLeastSeen) return lie;
+  lie.near = near / static_cast<float>(offs.size());
+  lie.median = geometry::median_of(offs);
+  for (float& off : offs) off = std::abs(off - lie.median);
+  lie.spread = 1.4826F * geometry::median_of(offs);
+  return lie;
+}
+
+/// Fills kTable and what follows of each node's `columns`, [kNodes, kColumnsUsed - kSigma].
+void put_table(const Curve& curve, const Table& table, Strip& strip, std::span<float> columns) {
+  const auto beside = beside_table(curve, table);
+  if (!beside) return;
+  const Lie lie = lie_of(curve, *beside);
+  constexpr std::size_t kCount = kColumnsUsed - kSigma;
+  for (std::size_t i = 0; i < kNodes; ++i) {
+    const BesideTable& here = (*beside)[i];
+    if (here.misfit_m <= 0) continue;
+    const float way = std::clamp(here.way_m / curve.radius_m, -kMostWay, kMostWay);
+    const float off = here.way_m / here.misfit_m;
+    if (lie.near >= kLies) {
+      strip.to_table[i] = way;
+      strip.table_share[i] = here.share;
+    }
+    const auto at = [&](Column column) -> float& {
+      return columns[i * kCount + static_cast<std::size_t>(column - kSigma)];
+    };
+    at(kTable) = std::clamp(std::asinh(way) / 2, -2.0F, 2.0F);
+    at(kTableOff) = std::clamp(off, -kMostOff, kMostOff) / 3;
+    at(kTableMisfit) = std::clamp(std::log(here.misfit_m / curve.radius_m) / 2, -2.0F, 2.0F);
+    at(kTableDepths) = std::clamp(log_of(table.misfit, 5e-3F) / 2, -2.0F, 2.0F);
+    at(kTableRough) = std::clamp(table.roughness / table.misfit, 0.0F, 2.0F);
+    at(kTableKnown) = table.known;
+    at(kTableSeen) = lie.seen;
+    at(kTableNear) = lie.near;
+    at(kTableMedian) = std::clamp(lie.median, -kMostOff, kMostOff) / 3;
+    at(kTableSpread) = std::clamp(lie.spread, 0.0F, kMostOff) / 3;
+  }
+}
+
 /// [kNodes, kColumnsUsed - kSigma]
 std::vector<float> node_columns(const Curve& curve, const Frame& frame) {
   constexpr std::size_t kCount = kColumnsUsed - kSigma;
@@ -158,9 +250,14 @@ bool can_be_seen(const Curve& curve) {
 std::optional<Strip> strip_along(const Curve& curve, const Frame& frame) {
   if (!can_be_seen(curve)) return std::nullopt;
   const auto stations = stations_of(curve, frame);
-  const auto of_nodes = node_columns(curve, frame);
+  auto of_nodes = node_columns(curve, frame);
   constexpr std::size_t kOfNode = kColumnsUsed - kSigma;
   Strip strip;
+  std::vector<AxisPlace> places;
+  for (const Station& s : stations) places.push_back({s.px, s.along, 0.5F * s.width_px});
+  std::vector<Beside> beside(stations.size());
+  const auto table = table_beside(places, frame, beside);
+  if (table) put_table(curve, *table, strip, of_nodes);
   strip.values.assign(static_cast<std::size_t>(kStations) * weights::kRefineInputs, 0.0F);
   for (std::size_t j = 0; j < stations.size(); ++j) {
     const Station& s = stations[j];
@@ -177,6 +274,10 @@ std::optional<Strip> strip_along(const Curve& curve, const Frame& frame) {
       row[kStep] = std::clamp(std::log2(std::max(1e-3F, step / s.width_px)) / 4, -1.0F, 1.0F);
     }
     row[kSlope] = s.slope;
+    if (beside[j].sides > 0) {
+      row[kGround] = std::asinh((beside[j].depth_m - s.depth_m) / curve.radius_m) / 2;
+      row[kGroundSides] = 0.5F * static_cast<float>(beside[j].sides);
+    }
     row[kInside] = s.px.x() >= 0 && s.px.y() >= 0 && s.px.x() < static_cast<float>(frame.width) &&
                            s.px.y() < static_cast<float>(frame.height)
                        ? 1.0F

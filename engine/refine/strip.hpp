@@ -30,8 +30,10 @@ enum Column {
   kSlope,                           ///< sine of the angle between rope and image plane
   kStep,                            ///< pixels between stations: log2 of widths, / 4
   kInside,                          ///< 1 within the image
-  kSigma,                           ///< of the node that the station belongs to, as all that follow
-  kUnseen,                          ///< along the rope to a node with support, 20 radii
+  kGround,       ///< asinh of how much deeper what lies beside the rope is, in radii, / 2
+  kGroundSides,  ///< 0, 0.5 or 1: on neither side, on one or on both is something seen
+  kSigma,        ///< of the node that the station belongs to, as all that follow
+  kUnseen,       ///< along the rope to a node with support, 20 radii
   kUnsupported,
   kFromMiddle,  ///< 0 in the rope's middle, 1 at its ends
   kNearEnd,
@@ -45,6 +47,17 @@ enum Column {
   kBendDeep,   ///< second difference of the nodes, radii
   kBendAlong,
   kBendAside,
+  kTable,        ///< asinh of the way to the table (refine/table.hpp), in radii, / 2; as all that
+                 ///< follow 0 where there is none
+  kTableOff,     ///< the same in misfits of the table at that distance, / 3
+  kTableMisfit,  ///< logarithms of that misfit in radii
+  kTableDepths,  ///< and of the inverse depths' misfit
+  kTableRough,   ///< the table's roughness in misfits
+  kTableKnown,   ///< Table::known
+  kTableSeen,    ///< share of nodes with support
+  kTableNear,    ///< share of those that are nearer to it than 2.5 misfits, or than a radius
+  kTableMedian,  ///< of their kTableOff
+  kTableSpread,  ///< deviation of those, robust
   kColumnsUsed,
 };
 
@@ -60,6 +73,11 @@ struct Curve {
 
 struct Strip {
   std::vector<float> values;  ///< [kStations, weights::kRefineInputs], zero beyond kColumnsUsed
+  /// By how much each node has to move deep to lie on the table, radii; 0 without a table, and
+  /// where less than a quarter of the nodes with support are near it.
+  std::array<float, kNodes> to_table{};
+  /// What to multiply a node by to lie there, along its ray; 0 where `to_table` is.
+  std::array<float, kNodes> table_share{};
 };
 
 /// Whether its nodes are in front of the camera and the rope has a width.

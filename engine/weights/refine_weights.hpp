@@ -10,12 +10,15 @@
 
 namespace flowdlo::weights {
 
-inline constexpr std::string_view kRefineVersion = "1";  ///< metadata "refine": inputs and layers
+inline constexpr std::string_view kRefineVersion = "2";  ///< metadata "refine": inputs and layers
 inline constexpr int kRefineInputs = 96;                 ///< of each station of a strip
 inline constexpr int kRefineStem = 32;                   ///< channels behind the first layer
 inline constexpr int kRefineWidth = 64;                  ///< channels of each convolution
 inline constexpr int kRefineSquares = 4;                 ///< convolutions of 3 x 3
-inline constexpr int kRefineOutputs = 16;  ///< columns that kernels take; two are used
+inline constexpr int kRefineOutputs = 16;  ///< columns that kernels take; three are used
+/// Whether a node lies on the table is the mean of what is said of so many nodes to both sides as
+/// well: a rope rises and falls slowly.
+inline constexpr int kRefineAlike = 4;
 
 using RefineWeights = Section;
 

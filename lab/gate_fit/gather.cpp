@@ -25,6 +25,10 @@ namespace {
 constexpr std::uint64_t kLengthKnownEvery = 4;
 constexpr std::uint64_t kApart = 500000;  // between scenes with and without the model
 constexpr const char* kPairs = "pairs";   // a split of two drawn ropes in one mask
+// A split of `wide` scenes, others than those with or without the model, with stereo cameras'
+// depth as matching two pictures gives it.
+constexpr const char* kMatched = "matched";
+constexpr std::uint64_t kFirstMatched = kFirstUntrained + 2 * kApart;
 constexpr int kPixels = 1280 * 720;
 
 /// Scenes of another kind, one on so many of the split.
@@ -32,10 +36,14 @@ struct Extra {
   const char* split;
   int on;
   bool bare;
+  std::uint64_t first = 0;
 };
 
-constexpr std::array<Extra, 4> kExtras{
-    {{"thesis", 4, false}, {"drawn", 4, true}, {"several", 8, true}, {kPairs, 8, true}}};
+constexpr std::array<Extra, 5> kExtras{{{"thesis", 4, false},
+                                        {"drawn", 4, true},
+                                        {"several", 8, true},
+                                        {kPairs, 8, true},
+                                        {kMatched, 3, false, kFirstMatched}}};
 
 /// Scenes of one split and part, with or without the model.
 struct Batch {
@@ -103,7 +111,9 @@ MaybeFrame pair_of(synth::Part part, std::uint64_t index, bool color) {
 MaybeFrame frame_of(const SampleOrigin& origin, std::uint64_t index, bool color) {
   const synth::Part part = *synth::part_of(origin.part);
   if (origin.split == kPairs) return pair_of(part, index, color);
-  auto scene = synth::frame_at(*synth::split_of(origin.split), part, index, {.color = color});
+  const bool matched = origin.split == kMatched;
+  auto scene = synth::frame_at(matched ? synth::Split::kWide : *synth::split_of(origin.split), part,
+                               index, {.color = color, .matched = matched});
   if (!scene) return scene.error();
   return std::optional(*std::move(scene));
 }

@@ -16,6 +16,7 @@ void visit(train::ReadVisitor& visitor, Recipe& recipe) {
     v.whole("scenes", recipe.data.scenes, 1, kMany);
     v.real("matched", recipe.data.matched, 0, 1);
     v.real("seen", recipe.data.seen, 0, 1);
+    v.real("uneven", recipe.data.uneven, 0, 1);
   });
   visitor.group("schedule", [&](train::ReadVisitor& v) {
     Schedule& schedule = recipe.schedule;
@@ -30,6 +31,7 @@ void visit(train::ReadVisitor& visitor, Recipe& recipe) {
     v.real("matched_weight", schedule.matched_weight, 0, 1e3);
     v.real("harm", schedule.harm, 0, 100);
     v.real("most_index_mm", schedule.most_index_mm, 0.1, 1e6);
+    v.real("most_deep_mm", schedule.most_deep_mm, 0.1, 1e6);
   });
 }
 

@@ -15,6 +15,7 @@ struct DataConfig {
   std::uint64_t scenes = 3000;  ///< rounded up to whole shards
   double matched = 0.6;  ///< share whose camera matches two pictures, where it is a stereo one
   double seen = 0.25;    ///< share in which the strand field is asked too
+  double uneven = 0.25;  ///< share that lies on something wavy, as a cloth (refining/uneven.hpp)
 };
 
 struct Schedule {
@@ -28,7 +29,8 @@ struct Schedule {
   double ema_decay = 0.997;
   double matched_weight = 2;  ///< how often a strip with matched depth is drawn, beside others
   double harm = 0.3;          ///< extra weight of what a node gets worse by
-  double most_index_mm = 10;  ///< strips with an index error above it are left out
+  double most_index_mm = 10;  ///< strips with an index error above it are left out,
+  double most_deep_mm = 10;   ///< but not up to this where nodes are off deep rather than aside
 };
 
 struct Recipe {

@@ -13,6 +13,7 @@
 #include "geometry/camera.hpp"
 #include "reference/program.hpp"
 #include "refine/local_frame.hpp"
+#include "refining/uneven.hpp"
 #include "survey/shards.hpp"
 #include "synth/evenly_spread.hpp"
 #include "synth/synthetic_frame.hpp"
@@ -21,7 +22,7 @@
 namespace flowdlo::refining {
 namespace {
 
-constexpr survey::ShardKind kStrips{0x3230'5350'4952'5453, "strips",  // "STRIPS02"
+constexpr survey::ShardKind kStrips{0x3330'5350'4952'5453, "strips",  // "STRIPS03"
                                     "flowdlo-train refine", kShardScenes};
 constexpr std::size_t kStripFloats =
     static_cast<std::size_t>(refine::kStations) * weights::kRefineInputs;
@@ -49,10 +50,11 @@ using Gate = std::optional<gate::GateWeights>;
 Result<std::optional<StripSample>> sample_of(const DataConfig& config, std::uint64_t number,
                                              field::Network* field, const Gate& gate) {
   const bool seen = field != nullptr && synth::evenly_spread(config.seen, number);
-  const auto scene =
+  auto scene =
       synth::make_frame(synth::Split::kWide, synth::Part::kTraining, 0, config.first + number,
                         {.color = seen, .matched = synth::evenly_spread(config.matched, number)});
   if (!scene) return scene.error();
+  if (synth::evenly_spread(config.uneven, number)) make_uneven(number, *scene);
   const Frame frame = scene->frame();
   Timings timings;
   const auto conditions = estimator::gather(frame, {}, timings);
@@ -83,6 +85,7 @@ Result<std::vector<survey::Bytes>> packed_strips(const DataConfig& config, std::
     survey::Packer packer;
     packer.put((*sample)->truth);
     packer.put_all((*sample)->strip.values);
+    packer.put((*sample)->strip.to_table);
     packed.push_back(std::move(packer.bytes));
   }
   return packed;
@@ -114,6 +117,7 @@ Result<std::vector<StripSample>> read_strips(const std::filesystem::path& folder
     survey::Unpacker unpacker(*bytes);
     unpacker.get(samples[i].truth);
     unpacker.get_all(samples[i].strip.values);
+    unpacker.get(samples[i].strip.to_table);
     const bool whole = unpacker.fine() && samples[i].strip.values.size() == kStripFloats;
     if (!whole) return survey::damaged(store->file_of(i), kStrips);
   }

@@ -20,7 +20,11 @@ using torch::Tensor;
 
 constexpr std::uint64_t kFolds = 5;  // one of which is held out
 constexpr int kNoteEvery = 200;
-constexpr double kSmooth = 0.1;  // radii; below it the loss is a parabola
+constexpr int kSaid = 3;           // deep, aside and whether the node lies on the table
+constexpr float kNotLaid = -2;     // of the last one, at first
+constexpr double kMostScale = 20;  // radii
+constexpr float kMostAside = 1;    // radii, in the mean over a rope's nodes
+constexpr double kSmooth = 0.1;    // radii; below it the loss is a parabola
 
 /// Runs of scenes, for shares of them come in turns.
 bool held_out(const StripSample& sample) { return sample.truth.scene / kFolds % kFolds == 0; }
@@ -42,9 +46,20 @@ Tensor signs(std::initializer_list<int> turned) {
   return result;
 }
 
+/// Whether the hypothesis takes the rope's way. One that does may be decimetres off all the same,
+/// where depths are wrong or missing, but not aside.
+bool right_way(const StripTruth& truth, const Schedule& schedule) {
+  float aside = 0;
+  for (const float off : truth.aside) aside += std::abs(off) / kNodes;
+  const auto index_mm = static_cast<double>(truth.index_mm);
+  return index_mm <= schedule.most_index_mm ||
+         (aside < kMostAside && index_mm <= schedule.most_deep_mm);
+}
+
 struct Batch {
-  Tensor strips;  // [n, kStations, kRefineInputs]
-  Tensor truth;   // [n, kNodes, 2]
+  Tensor strips;    // [n, kStations, kRefineInputs]
+  Tensor to_table;  // [n, kNodes] radii
+  Tensor truth;     // [n, kNodes, 2]
 };
 
 /// Seen in a mirror, from the other end, or both.
@@ -61,6 +76,7 @@ Batch varied(Batch batch, bool mirror, bool reverse) {
         signs({refine::kTurn, refine::kSlope, refine::kBendAlong, refine::kBendAside});
     batch.strips = batch.strips.flip(1).index_select(2, columns) * sign;
     batch.truth = batch.truth.flip(1) * aside;
+    batch.to_table = batch.to_table.flip(1);
   }
   return batch;
 }
@@ -68,11 +84,14 @@ Batch varied(Batch batch, bool mirror, bool reverse) {
 Batch batch_of(const std::vector<StripSample>& samples, const std::vector<std::size_t>& which) {
   const auto count = static_cast<std::int64_t>(which.size());
   Batch batch{torch::empty({count, refine::kStations, weights::kRefineInputs}),
+              torch::empty({count, static_cast<std::int64_t>(kNodes)}),
               torch::empty({count, static_cast<std::int64_t>(kNodes), 2})};
   for (std::int64_t i = 0; i < count; ++i) {
     const StripSample& sample = samples[which[static_cast<std::size_t>(i)]];
     std::copy(sample.strip.values.begin(), sample.strip.values.end(),
               batch.strips[i].data_ptr<float>());
+    std::copy(sample.strip.to_table.begin(), sample.strip.to_table.end(),
+              batch.to_table[i].data_ptr<float>());
     float* to = batch.truth[i].data_ptr<float>();
     for (std::size_t node = 0; node < kNodes; ++node) {
       *to++ = sample.truth.deep[node];
@@ -82,10 +101,17 @@ Batch batch_of(const std::vector<StripSample>& samples, const std::vector<std::s
   return batch;
 }
 
+/// [n, kNodes, 2] by how much nodes are moved, deep and aside.
+Tensor moved(Network& network, const Batch& batch) {
+  const Tensor said = network->forward(batch.strips);
+  const Tensor deep = said.select(2, 0) + torch::sigmoid(said.select(2, 2)) * batch.to_table;
+  return torch::stack({deep, said.select(2, 1)}, 2);
+}
+
 /// A scene counts by how far its nodes are off, so that none drowns the others. `harm` is what a
 /// node costs beside that which is worse than before.
 Tensor loss_of(const Tensor& said, const Tensor& truth, double harm) {
-  const Tensor scale = (0.15 + truth.abs().mean(1, true)).clamp_max(2);
+  const Tensor scale = (0.15 + truth.abs().mean(1, true)).clamp_max(kMostScale);
   const Tensor off = torch::sqrt((truth - said).square() + kSmooth * kSmooth);
   const Tensor before = torch::sqrt(truth.square() + kSmooth * kSmooth);
   return ((off + harm * torch::relu(off - before)) / scale).mean();
@@ -144,14 +170,14 @@ void add_row(const char* name, const Errors& errors, survey::Table& table) {
 }
 
 std::string table_of(Network& network, const std::vector<StripSample>& samples,
-                     double most_index_mm) {
+                     const Schedule& schedule) {
   const torch::NoGradGuard no_gradients;
   Errors of_model;
   Errors of_matched;
   for (std::size_t i = 0; i < samples.size(); ++i) {
     const StripSample& sample = samples[i];
-    if (!held_out(sample) || static_cast<double>(sample.truth.index_mm) > most_index_mm) continue;
-    const Tensor said = network->forward(batch_of(samples, {i}).strips)[0].contiguous();
+    if (!held_out(sample) || !right_way(sample.truth, schedule)) continue;
+    const Tensor said = moved(network, batch_of(samples, {i}))[0].contiguous();
     add(sample, said, sample.truth.matched > 0 ? of_matched : of_model);
   }
   survey::Table table({"depth", "held-out scenes", "deep, mm, before and after", "aside",
@@ -186,9 +212,11 @@ NetworkImpl::NetworkImpl() {
     nn::init::zeros_(square->bias);
     squares->push_back(square);
   }
-  head = register_module("head", convolution(weights::kRefineWidth, 2, 1));
+  head = register_module("head", convolution(weights::kRefineWidth, kSaid, 1));
   nn::init::zeros_(head->weight);
   nn::init::zeros_(head->bias);
+  const torch::NoGradGuard no_gradients;
+  head->bias[kSaid - 1] = kNotLaid;
 }
 
 Tensor NetworkImpl::forward(const Tensor& strips) {
@@ -199,7 +227,11 @@ Tensor NetworkImpl::forward(const Tensor& strips) {
                  .permute({0, 3, 2, 1});
   x = torch::relu(stem->forward(x));
   for (const auto& square : *squares) x = torch::relu(square->as<nn::Conv2d>()->forward(x));
-  return head->forward(x).mean(2).transpose(1, 2);
+  const Tensor said = head->forward(x).mean(2);  // [count, kSaid, kNodes]
+  constexpr int kReach = weights::kRefineAlike;
+  const Tensor laid = torch::avg_pool1d(said.slice(1, kSaid - 1, kSaid), 2 * kReach + 1, 1, kReach,
+                                        /*ceil_mode=*/false, /*count_include_pad=*/false);
+  return torch::cat({said.slice(1, 0, kSaid - 1), laid}, 1).transpose(1, 2);
 }
 
 weights::RefineWeights exported(const Network& network, const std::string& notes) {
@@ -227,9 +259,7 @@ Result<Trained> train(const Recipe& recipe, const std::vector<StripSample>& samp
   std::vector<double> shares;
   for (std::size_t i = 0; i < samples.size(); ++i) {
     const StripTruth& truth = samples[i].truth;
-    if (held_out(samples[i]) || static_cast<double>(truth.index_mm) > schedule.most_index_mm) {
-      continue;
-    }
+    if (held_out(samples[i]) || !right_way(truth, schedule)) continue;
     which.push_back(i);
     shares.push_back(truth.matched > 0 ? schedule.matched_weight : 1);
   }
@@ -258,7 +288,7 @@ Result<Trained> train(const Recipe& recipe, const std::vector<StripSample>& samp
     for (int i = 0; i < schedule.batch; ++i) drawn.push_back(which[draw(random)]);
     const auto turns = random();
     const Batch batch = varied(batch_of(samples, drawn), (turns & 1U) != 0, (turns & 2U) != 0);
-    const Tensor loss = loss_of(network->forward(batch.strips), batch.truth, schedule.harm);
+    const Tensor loss = loss_of(moved(network, batch), batch.truth, schedule.harm);
     const double value = loss.item<double>();
     if (!std::isfinite(value)) {
       return Error{ErrorCode::kInternal,
@@ -279,7 +309,7 @@ Result<Trained> train(const Recipe& recipe, const std::vector<StripSample>& samp
       total = 0;
     }
   }
-  return Trained{average, table_of(average, samples, schedule.most_index_mm)};
+  return Trained{average, table_of(average, samples, schedule)};
 }
 
 }  // namespace flowdlo::refining

@@ -83,17 +83,27 @@ TEST(RefineNetwork, IsWhatItsLayersSay) {
   }
   x = convolved(weights, "head", x, false);
   const auto offsets = seen(weights, [] { return reference::create_program(1); });
-  double largest = 0;
+  std::array<std::array<double, 3>, kNodes> said{};
   for (std::size_t node = 0; node < kNodes; ++node) {
-    double deep = 0;
-    double aside = 0;
     for (std::size_t sub = 0; sub < kStationsOfNode; ++sub) {
-      deep += x[sub][node][0] / kStationsOfNode;
-      aside += x[sub][node][1] / kStationsOfNode;
+      for (std::size_t k = 0; k < 3; ++k) said[node][k] += x[sub][node][k] / kStationsOfNode;
     }
-    EXPECT_NEAR(static_cast<double>(offsets[node].deep), deep, 1e-4);
-    EXPECT_NEAR(static_cast<double>(offsets[node].aside), aside, 1e-4);
-    largest = std::max({largest, std::abs(deep), std::abs(aside)});
+  }
+  double largest = 0;
+  for (int node = 0; node < static_cast<int>(kNodes); ++node) {
+    const auto& [deep, aside, own] = said[static_cast<std::size_t>(node)];
+    double log_odds = 0;
+    int beside = 0;
+    for (int k = node - weights::kRefineAlike; k <= node + weights::kRefineAlike; ++k) {
+      if (k < 0 || k >= static_cast<int>(kNodes)) continue;
+      log_odds += said[static_cast<std::size_t>(k)][2];
+      ++beside;
+    }
+    const Offset& offset = offsets[static_cast<std::size_t>(node)];
+    EXPECT_NEAR(static_cast<double>(offset.deep), deep, 1e-4);
+    EXPECT_NEAR(static_cast<double>(offset.aside), aside, 1e-4);
+    EXPECT_NEAR(static_cast<double>(offset.laid), 1 / (1 + std::exp(-log_odds / beside)), 1e-4);
+    largest = std::max({largest, std::abs(deep), std::abs(aside), std::abs(own)});
   }
   EXPECT_GT(largest, 0.1);  // noise says something, so that the comparison does
 }
@@ -114,6 +124,7 @@ TEST(RefineNetwork, VulkanSaysWhatTheCpuSays) {
     for (std::size_t node = 0; node < kNodes; ++node) {
       EXPECT_NEAR(gpu[node].deep, cpu[node].deep, 1e-4F);
       EXPECT_NEAR(gpu[node].aside, cpu[node].aside, 1e-4F);
+      EXPECT_NEAR(gpu[node].laid, cpu[node].laid, 1e-4F);
     }
     ++compared;
   }

@@ -45,6 +45,87 @@ TEST(Strip, DepthThatIsTooDeepShowsInRadii) {
   EXPECT_NEAR(at(*strip, 128, kDepthOnMask * kAcross + 7), 0.5F, 1e-3F);
 }
 
+TEST(Strip, SaysHowFarNodesLieFromTheTable) {
+  StraightRope rope;
+  const auto mask = rope.frame().mask;
+  for (std::size_t i = 0; i < mask.size(); ++i) {  // 4 mm off either way, in stretches of 8 px
+    if (mask[i] == 0) rope.depth_m()[i] += i % StraightRope::kWidth / 8 % 2 == 0 ? 4e-3F : -4e-3F;
+  }
+  auto curve = rope.curve();
+  for (Point3& node : curve.nodes) {  // two radii too deep
+    const float share = 1 + 2 * StraightRope::kRadius_m / node.z;
+    node = {share * node.x, share * node.y, share * node.z};
+  }
+  const auto strip = strip_along(curve, rope.frame());
+  ASSERT_TRUE(strip);
+  for (std::size_t i = 0; i < kNodes; ++i) {
+    EXPECT_NEAR(strip->to_table[i], -2, 0.15F);
+    const auto station = static_cast<int>(i) * kStationsOfNode;
+    EXPECT_NEAR(at(*strip, station, kTable), std::asinh(strip->to_table[i]) / 2, 1e-6F);
+    EXPECT_NEAR(at(*strip, station, kTableOff), -10.0F / (1.4826F * 4) / 3, 0.1F);
+    EXPECT_EQ(at(*strip, station, kTableNear), 1);
+    EXPECT_EQ(at(*strip, station, kTableSeen), 1);
+    EXPECT_EQ(at(*strip, station, kTableKnown), 1);
+  }
+  EXPECT_EQ(at(*strip, 128, kGroundSides), 1);
+}
+
+/// The rope on its table, but for nodes `first` to `last`: these are read ten radii too near.
+Curve arched(const StraightRope& rope, std::size_t first, std::size_t last) {
+  Curve curve = rope.curve();
+  for (std::size_t i = first; i <= last; ++i) {
+    Point3& node = curve.nodes[i];
+    const float share = 1 - 10 * StraightRope::kRadius_m / node.z;
+    node = {share * node.x, share * node.y, share * node.z};
+    curve.unseen_m[i] = 0.01F;
+  }
+  return curve;
+}
+
+TEST(Strip, ARopeOnItsTableMayHaveALongWayToItWhereNothingSupportsIt) {
+  const StraightRope rope;
+  const auto strip = strip_along(arched(rope, 20, 39), rope.frame());
+  ASSERT_TRUE(strip);
+  EXPECT_NEAR(strip->to_table[30], 10, 0.3F);
+  EXPECT_NEAR(strip->to_table[10], 0, 0.02F);
+  EXPECT_NEAR(at(*strip, 40, kTableSeen), 44.0F / 64, 1e-6F);
+  EXPECT_EQ(at(*strip, 40, kTableNear), 1);
+}
+
+TEST(Strip, ARopeInTheAirHasNoWayToATable) {
+  const StraightRope rope;
+  auto curve = arched(rope, 0, 55);
+  curve.unseen_m.fill(0);
+  const auto strip = strip_along(curve, rope.frame());
+  ASSERT_TRUE(strip);
+  for (const float way : strip->to_table) EXPECT_EQ(way, 0);
+  EXPECT_LT(at(*strip, 128, kTableNear), 0.25F);
+  EXPECT_GT(at(*strip, 128, kTable), 1);  // it is told all the same
+}
+
+TEST(Strip, SaysWhatLiesBesideTheRope) {
+  const StraightRope rope;
+  const auto strip = strip_along(rope.curve(), rope.frame());
+  ASSERT_TRUE(strip);
+  EXPECT_NEAR(at(*strip, 128, kGround), std::asinh(1.0F) / 2, 0.01F);  // a radius deeper
+  EXPECT_EQ(at(*strip, 128, kGroundSides), 1);
+}
+
+TEST(Strip, NoTableWhereNothingIsSeenBesideTheRope) {
+  StraightRope rope;
+  const auto mask = rope.frame().mask;
+  for (std::size_t i = 0; i < rope.depth_m().size(); ++i) {
+    if (mask[i] == 0) rope.depth_m()[i] = 0;
+  }
+  const auto strip = strip_along(rope.curve(), rope.frame());
+  ASSERT_TRUE(strip);
+  for (const float way : strip->to_table) EXPECT_EQ(way, 0);
+  for (int column = kTable; column < kColumnsUsed; ++column) {
+    EXPECT_EQ(at(*strip, 128, column), 0) << column;
+  }
+  EXPECT_EQ(at(*strip, 128, kGroundSides), 0);
+}
+
 TEST(Strip, HostileDepthLeavesNothingThatIsNotFinite) {
   StraightRope rope;
   const float hostile[] = {std::numeric_limits<float>::quiet_NaN(),

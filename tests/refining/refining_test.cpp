@@ -5,12 +5,15 @@
 #include <random>
 
 #include "frame/temporary_folder.hpp"
+#include "geometry/camera.hpp"
 #include "reference/program.hpp"
 #include "refine/network.hpp"
 #include "refining/recipe.hpp"
 #include "refining/strip_store.hpp"
 #include "refining/trainer.hpp"
+#include "refining/uneven.hpp"
 #include "support/source_dir.hpp"
+#include "synth/synthetic_frame.hpp"
 
 namespace flowdlo::refining {
 namespace {
@@ -100,6 +103,81 @@ TEST(Refining, LearnsWhatItsStripsShow) {
   }
   EXPECT_LT(after, 0.5 * before);
   EXPECT_NE(trained->table.find("| model of the noise | 5 |"), std::string::npos) << trained->table;
+}
+
+/// Strips of ropes that are read anywhere and lie on their table in every other scene, as the
+/// columns of the table say.
+std::vector<StripSample> laid_strips(int count) {
+  std::mt19937 random(6);
+  std::normal_distribution<float> value(0, 3);
+  std::vector<StripSample> samples = strips(count);
+  for (StripSample& sample : samples) {
+    const bool laid = sample.truth.scene % 2 == 0;
+    for (std::size_t node = 0; node < kNodes; ++node) {
+      sample.strip.to_table[node] = value(random);
+      sample.truth.deep[node] = laid ? sample.strip.to_table[node] : 0;
+    }
+    for (std::size_t station = 0; station < refine::kStations; ++station) {
+      auto* const row = sample.strip.values.data() + station * weights::kRefineInputs;
+      std::fill(row, row + refine::kAcross, 0.0F);
+      for (int k = refine::kTableSeen; k <= refine::kTableSpread; ++k) row[k] = laid ? 2.0F : -2.0F;
+    }
+  }
+  return samples;
+}
+
+TEST(Refining, LearnsWhichRopesLieOnTheirTable) {
+  Recipe recipe;
+  recipe.name = "test";
+  recipe.schedule.steps = 120;
+  recipe.schedule.rate = 0.004;
+  recipe.schedule.batch = 4;
+  recipe.schedule.warmup_steps = 5;
+  recipe.schedule.ema_decay = 0.9;
+  const auto samples = laid_strips(25);
+  const auto trained = train(recipe, samples, {});
+  ASSERT_TRUE(trained) << trained.error().message;
+  auto engine = refine::Network::create(exported(trained->network, "test"),
+                                        [] { return reference::create_program(1); });
+  ASSERT_TRUE(engine) << engine.error().message;
+  for (const std::size_t scene : {0, 1, 2, 3, 4}) {  // held out
+    const auto offsets = engine->see(samples[scene].strip);
+    ASSERT_TRUE(offsets) << offsets.error().message;
+    double laid = 0;
+    for (const auto& offset : *offsets) laid += static_cast<double>(offset.laid) / kNodes;
+    if (scene % 2 == 0) {
+      EXPECT_GT(laid, 0.7) << scene;
+    } else {
+      EXPECT_LT(laid, 0.3) << scene;
+    }
+  }
+}
+
+TEST(Refining, AnUnevenSceneMovesRopeAndDepthAlike) {
+  const auto scene =
+      synth::make_frame(synth::Split::kWide, synth::Part::kTraining, 0, 3500003, {.color = false});
+  ASSERT_TRUE(scene) << scene.error().message;
+  auto wavy = *scene;
+  make_uneven(7, wavy);
+  double most_m = 0;
+  const auto& camera = scene->folder.intrinsics;
+  for (std::size_t i = 0; i < kNodes; ++i) {
+    const Point3& before = scene->truth()[i];
+    const Point3& after = wavy.truth()[i];
+    const auto px = geometry::project(camera, before);
+    EXPECT_LT((geometry::project(camera, after) - px).norm(), 1e-2F);  // along its ray
+    const auto u = static_cast<int>(std::lround(px.x()));
+    const auto v = static_cast<int>(std::lround(px.y()));
+    if (u < 0 || v < 0 || u >= scene->folder.width || v >= scene->folder.height) continue;
+    const auto pixel = static_cast<std::size_t>(v * scene->folder.width + u);
+    const float moved_m = wavy.folder.depth_m[pixel] - scene->folder.depth_m[pixel];
+    if (scene->folder.depth_m[pixel] > 0) EXPECT_NEAR(moved_m, after.z - before.z, 1e-3F);
+    most_m = std::max(most_m, std::abs(static_cast<double>(after.z - before.z)));
+  }
+  EXPECT_GT(most_m, 5e-4);
+  auto again = *scene;
+  make_uneven(7, again);
+  EXPECT_EQ(again.folder.depth_m, wavy.folder.depth_m);
 }
 
 TEST(Refining, TooFewStripsAreRefused) {

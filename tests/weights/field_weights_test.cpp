@@ -147,11 +147,11 @@ TEST_F(FieldWeightsTest, AnotherVersionOfTheNetworkThatRefinesIsRefused) {
   weights_.refine = seeded_refine(3);
   ASSERT_TRUE(save_field(weights_, file()));
   std::string bytes = text();
-  const auto at = bytes.find("\"refine\":\"1\"");
+  const auto at = bytes.find("\"refine\":\"2\"");
   ASSERT_NE(at, std::string::npos);
-  bytes.replace(at, 12, "\"refine\":\"2\"");
+  bytes.replace(at, 12, "\"refine\":\"1\"");
   write(bytes);
-  EXPECT_THAT(fault(), HasSubstr("metadata refine: expected \"1\""));
+  EXPECT_THAT(fault(), HasSubstr("metadata refine: expected \"2\""));
 }
 
 TEST_F(FieldWeightsTest, TensorsOfANetworkThatRefinesNeedItsVersion) {
