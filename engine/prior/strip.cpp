@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "evidence/beside_rope.hpp"
 #include "geometry/camera.hpp"
 #include "geometry/depth.hpp"
 #include "geometry/polyline.hpp"
@@ -23,10 +24,6 @@ constexpr float kTangentWidths = 0.35F;  // to both sides
 constexpr float kEdgeWidths = 1.8F;      // how far the mask's edge is looked for
 constexpr float kOffAxisWidths = 0.3F;   // how far the path may leave the mask and still be on it
 constexpr float kBesidePx = 2.5F;        // beyond the mask's edge: clear of mixed pixels
-constexpr float kGroundFromPx = 5.0F;  // beyond the mask's edge, of an image 640 px wide: clear of
-                                       // what a window of a stereo camera mixes,
-constexpr float kGroundToPx = 10.0F;   // up to here
-constexpr int kLeastGround = 3;        // depths of one side
 constexpr float kSteepestGround = 2.7F;  // metres of depth a metre aside
 constexpr float kStrandWidths = 3.0F;    // stations farther apart along the path: other strands
 constexpr float kStrandPx = 4.0F;
@@ -55,7 +52,7 @@ class Image {
     const float depth = frame_.depth_m[static_cast<std::size_t>(pixel)];
     return geometry::measured(depth) ? depth : 0;
   }
-  [[nodiscard]] float scale() const { return geometry::pixel_scale(frame_.width); }
+  [[nodiscard]] const Frame& frame() const { return frame_; }
   [[nodiscard]] Eigen::Vector3f point(const Vector2f& p, float depth_m) const {
     return geometry::to_eigen(geometry::unproject(frame_.intrinsics, p.x(), p.y(), depth_m));
   }
@@ -117,23 +114,11 @@ struct Side {
   float depth_m = 0;    ///< 0: unknown
 };
 
-/// The middle depth within the stretch of ground, which nothing of the mask may reach into.
 Side ground_beside(const Station& station, float direction, float edge_px, const Image& image) {
-  const auto from = static_cast<int>(std::lround(kGroundFromPx * image.scale()));
-  const auto to = static_cast<int>(std::lround(kGroundToPx * image.scale()));
-  std::vector<float> depths;
-  depths.reserve(static_cast<std::size_t>(to));
-  for (int step = 2; step <= to; ++step) {
-    const Vector2f p =
-        station.point_px + direction * (edge_px + static_cast<float>(step)) * station.normal;
-    if (image.masked(p)) return {};
-    if (step < from) continue;
-    const std::ptrdiff_t pixel = image.pixel(p);
-    const float depth_m = pixel < 0 ? 0 : image.depth_m(pixel);
-    if (depth_m > 0) depths.push_back(depth_m);
-  }
-  if (depths.size() < static_cast<std::size_t>(kLeastGround)) return {};
-  return {edge_px + 0.5F * static_cast<float>(from + to), geometry::median_of(depths)};
+  const evidence::BesideRope at = evidence::BesideRope::of_width(image.frame().width);
+  const Vector2f outward = direction * station.normal;
+  return {edge_px + 0.5F * static_cast<float>(at.from_px + at.to_px),
+          evidence::depth_beside(station.point_px + edge_px * outward, outward, at, image.frame())};
 }
 
 /// A line through what lies on both sides.

@@ -22,7 +22,7 @@ using ProgramFactory = std::function<std::unique_ptr<ops::Program>()>;
 struct Offset {
   float deep = 0;
   float aside = 0;
-  float laid = 0;  ///< [0, 1] how much of the way to the table (Strip::to_table) it goes besides
+  float laid = 0;  ///< [0, 1] how much of the way to the table (Strip::table_share) it goes besides
 };
 
 /// A strip is an image of 64 x 4 places, nodes by their stations: convolutions of 3 x 3 mix

@@ -73,8 +73,7 @@ Result<Refined> refined(const Curve& curve, const Frame& frame, Network& network
         !std::isfinite(offset.laid)) {
       continue;
     }
-    const float share =
-        strip->table_share[i] > 0 ? 1 + offset.laid * (strip->table_share[i] - 1) : 1;
+    const float share = 1 + offset.laid * (strip->table_share[i] - 1);
     const Eigen::Vector3f moved = share * geometry::to_eigen(nodes[i]) +
                                   curve.radius_m * (within_reach(offset.deep) * frames[i]->deep +
                                                     within_reach(offset.aside) * frames[i]->aside);

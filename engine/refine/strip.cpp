@@ -26,6 +26,10 @@ constexpr float kLeastWidth_px = 1;
 constexpr float kMostWidth_px = 200;
 constexpr std::array kBeyond{0.75F, 1.5F};  // of the outermost stations, widths beyond the end
 constexpr float kLeastChord_px = 1e-6F;
+constexpr float kNearTable = 2.5F;  // misfits, and a radius in any case
+constexpr float kLies = 0.25F;      // share of nodes near it for a rope that may lie on the table
+constexpr float kMostOff = 6;       // misfits that are told apart
+constexpr std::size_t kLeastSeen = 4;  // nodes with support that say how a rope lies
 
 struct Station {
   Vector2f px{0, 0};
@@ -110,11 +114,7 @@ void put_across(const Station& station, const Frame& frame, float radius_m, std:
   }
 }
 
-constexpr float kNearTable = 2.5F;  // misfits, and a radius in any case
-constexpr float kLies = 0.25F;      // share of nodes near it from which a rope may lie on the table
-constexpr float kMostOff = 6;       // misfits
-constexpr float kMostWay = 200;     // radii
-constexpr std::size_t kLeastSeen = 4;  // nodes
+using Frames = std::array<std::optional<LocalFrame>, kNodes>;
 
 /// Where a node lies beside the table.
 struct BesideTable {
@@ -125,10 +125,10 @@ struct BesideTable {
 
 /// Nothing where the table is seen too flatly beside most nodes.
 std::optional<std::array<BesideTable, kNodes>> beside_table(const Curve& curve,
+                                                            const Frames& frames,
                                                             const Table& table) {
   std::array<BesideTable, kNodes> result;
   std::size_t known = 0;
-  const auto frames = local_frames(curve.nodes);
   for (std::size_t i = 0; i < kNodes; ++i) {
     const Vector3f node = geometry::to_eigen(curve.nodes[i]);
     if (!frames[i]) continue;
@@ -157,7 +157,7 @@ Lie lie_of(const Curve& curve, const std::array<BesideTable, kNodes>& beside) {
     if (curve.unseen_m[i] > 0 || beside[i].misfit_m <= 0) continue;
     offs.push_back(beside[i].way_m / beside[i].misfit_m);
     const float reach_m = std::max(kNearTable * beside[i].misfit_m, curve.radius_m);
-    near += std::abs(beside[i].way_m) < reach_m ? 1 : 0;
+    near += std::abs(beside[i].way_m) < reach_m ? 1.0F : 0.0F;
   }
   Lie lie;
   lie.seen = static_cast<float>(offs.size()) / kNodes;
@@ -170,20 +170,18 @@ Lie lie_of(const Curve& curve, const std::array<BesideTable, kNodes>& beside) {
 }
 
 /// Fills kTable and what follows of each node's `columns`, [kNodes, kColumnsUsed - kSigma].
-void put_table(const Curve& curve, const Table& table, Strip& strip, std::span<float> columns) {
-  const auto beside = beside_table(curve, table);
+void put_table(const Curve& curve, const Frames& frames, const Table& table, Strip& strip,
+               std::span<float> columns) {
+  const auto beside = beside_table(curve, frames, table);
   if (!beside) return;
   const Lie lie = lie_of(curve, *beside);
   constexpr std::size_t kCount = kColumnsUsed - kSigma;
   for (std::size_t i = 0; i < kNodes; ++i) {
     const BesideTable& here = (*beside)[i];
     if (here.misfit_m <= 0) continue;
-    const float way = std::clamp(here.way_m / curve.radius_m, -kMostWay, kMostWay);
+    const float way = here.way_m / curve.radius_m;
     const float off = here.way_m / here.misfit_m;
-    if (lie.near >= kLies) {
-      strip.to_table[i] = way;
-      strip.table_share[i] = here.share;
-    }
+    if (lie.near >= kLies) strip.table_share[i] = here.share;
     const auto at = [&](Column column) -> float& {
       return columns[i * kCount + static_cast<std::size_t>(column - kSigma)];
     };
@@ -201,10 +199,9 @@ void put_table(const Curve& curve, const Table& table, Strip& strip, std::span<f
 }
 
 /// [kNodes, kColumnsUsed - kSigma]
-std::vector<float> node_columns(const Curve& curve, const Frame& frame) {
+std::vector<float> node_columns(const Curve& curve, const Frames& frames, const Frame& frame) {
   constexpr std::size_t kCount = kColumnsUsed - kSigma;
   std::vector<float> columns(kNodes * kCount);
-  const auto frames = local_frames(curve.nodes);
   const float length_m = std::max(geometry::length(curve.nodes), 1e-3F);
   for (std::size_t i = 0; i < kNodes; ++i) {
     const auto at = [&](Column column) -> float& {
@@ -250,14 +247,15 @@ bool can_be_seen(const Curve& curve) {
 std::optional<Strip> strip_along(const Curve& curve, const Frame& frame) {
   if (!can_be_seen(curve)) return std::nullopt;
   const auto stations = stations_of(curve, frame);
-  auto of_nodes = node_columns(curve, frame);
+  const Frames frames = local_frames(curve.nodes);
+  auto of_nodes = node_columns(curve, frames, frame);
   constexpr std::size_t kOfNode = kColumnsUsed - kSigma;
   Strip strip;
   std::vector<AxisPlace> places;
   for (const Station& s : stations) places.push_back({s.px, s.along, 0.5F * s.width_px});
   std::vector<Beside> beside(stations.size());
   const auto table = table_beside(places, frame, beside);
-  if (table) put_table(curve, *table, strip, of_nodes);
+  if (table) put_table(curve, frames, *table, strip, of_nodes);
   strip.values.assign(static_cast<std::size_t>(kStations) * weights::kRefineInputs, 0.0F);
   for (std::size_t j = 0; j < stations.size(); ++j) {
     const Station& s = stations[j];

@@ -71,13 +71,17 @@ struct Curve {
   float noise_m = 0;                     ///< standard deviation of the depths on the mask
 };
 
+[[nodiscard]] constexpr std::array<float, kNodes> no_table() {
+  std::array<float, kNodes> share{};
+  share.fill(1);
+  return share;
+}
+
 struct Strip {
   std::vector<float> values;  ///< [kStations, weights::kRefineInputs], zero beyond kColumnsUsed
-  /// By how much each node has to move deep to lie on the table, radii; 0 without a table, and
-  /// where less than a quarter of the nodes with support are near it.
-  std::array<float, kNodes> to_table{};
-  /// What to multiply a node by to lie there, along its ray; 0 where `to_table` is.
-  std::array<float, kNodes> table_share{};
+  /// What to multiply each node by, along its ray, for the rope to lie on the table there; 1
+  /// without a table, and where less than a quarter of the nodes with support are near it.
+  std::array<float, kNodes> table_share = no_table();
 };
 
 /// Whether its nodes are in front of the camera and the rope has a width.

@@ -8,9 +8,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "evidence/beside_rope.hpp"
 #include "geometry/camera.hpp"
-#include "geometry/depth.hpp"
-#include "geometry/pixel.hpp"
 #include "geometry/quantile.hpp"
 
 namespace flowdlo::refine {
@@ -20,12 +19,6 @@ using Eigen::Vector2f;
 using Eigen::Vector3d;
 using Eigen::Vector3f;
 
-// Beyond the rope's edge, pixels of an image 640 px wide: nothing of the mask from the first to the
-// last, and depths from the second on.
-constexpr float kClearPx = 2;
-constexpr float kFromPx = 5;
-constexpr float kToPx = 10;
-constexpr std::size_t kLeastDepths = 3;  // of one side
 constexpr std::size_t kLeastPoints = 48;
 constexpr float kLeastKnown = 0.25F;
 constexpr float kApartPx = 16;  // of an image 640 px wide: a window
@@ -48,40 +41,23 @@ struct Point {
   int side = 0;
 };
 
-/// Middle of the depths on one side; 0 where too few are known or the mask lies there.
-float depth_beside(const AxisPlace& place, const Vector2f& outward, const Frame& frame,
-                   float scale) {
-  const auto from = static_cast<int>(std::lround(kFromPx * scale));
-  const auto to = static_cast<int>(std::lround(kToPx * scale));
-  std::vector<float> depths;
-  for (int step = static_cast<int>(std::lround(kClearPx * scale)); step <= to; ++step) {
-    const Vector2f p = place.px + (place.half_px + static_cast<float>(step)) * outward;
-    const int u = geometry::nearest_px(p.x());
-    const int v = geometry::nearest_px(p.y());
-    if (u < 0 || v < 0 || u >= frame.width || v >= frame.height) continue;
-    const std::size_t pixel = static_cast<std::size_t>(v) * static_cast<std::size_t>(frame.width) +
-                              static_cast<std::size_t>(u);
-    if (frame.mask[pixel] > 127) return 0;
-    if (step >= from && geometry::measured(frame.depth_m[pixel])) {
-      depths.push_back(frame.depth_m[pixel]);
-    }
-  }
-  return depths.size() < kLeastDepths ? 0 : geometry::median_of(depths);
-}
-
 std::vector<Point> points_beside(std::span<const AxisPlace> places, const Frame& frame,
                                  std::span<Beside> beside) {
+  evidence::BesideRope at = evidence::BesideRope::of_width(frame.width);
   const float scale = geometry::pixel_scale(frame.width);
+  at.clear_px = static_cast<int>(std::lround(static_cast<float>(at.clear_px) * scale));
   const Intrinsics& camera = frame.intrinsics;
-  const float out_px = 0.5F * (kFromPx + kToPx) * scale;
+  constexpr evidence::BesideRope kAt640;
+  const float out_px = 0.5F * static_cast<float>(kAt640.from_px + kAt640.to_px) * scale;
   std::vector<Point> points;
   for (std::size_t i = 0; i < places.size(); ++i) {
     const Vector2f across(-places[i].along.y(), places[i].along.x());
     for (const int side : {-1, 1}) {
       const Vector2f outward = static_cast<float>(side) * across;
-      const float depth_m = depth_beside(places[i], outward, frame, scale);
+      const Vector2f edge_px = places[i].px + places[i].half_px * outward;
+      const float depth_m = evidence::depth_beside(edge_px, outward, at, frame);
       if (depth_m <= 0) continue;
-      const Vector2f p = places[i].px + (places[i].half_px + out_px) * outward;
+      const Vector2f p = edge_px + out_px * outward;
       const Vector3f ray((p.x() - camera.cx) / camera.fx, (p.y() - camera.cy) / camera.fy, 1);
       points.push_back({ray.cast<double>(), 1 / static_cast<double>(depth_m), i, side});
       Beside& here = beside[i];

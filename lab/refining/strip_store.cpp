@@ -43,6 +43,17 @@ StripTruth truth_of(const Centerline& nodes, const Centerline& canonical) {
   return result;
 }
 
+std::array<float, kNodes> ways_to_table(const refine::Curve& curve, const refine::Strip& strip) {
+  std::array<float, kNodes> ways{};
+  const auto frames = refine::local_frames(curve.nodes);
+  for (std::size_t i = 0; i < kNodes; ++i) {
+    if (!frames[i]) continue;
+    ways[i] = (strip.table_share[i] - 1) * geometry::to_eigen(curve.nodes[i]).dot(frames[i]->deep) /
+              curve.radius_m;
+  }
+  return ways;
+}
+
 /// What is chosen where nothing else is known: by the field's calibration, else the best score.
 using Gate = std::optional<gate::GateWeights>;
 
@@ -64,9 +75,11 @@ Result<std::optional<StripSample>> sample_of(const DataConfig& config, std::uint
   const auto candidates =
       estimator::list_candidates(look, conditions->paths.rope_width_px, {}, {}, {}, frame, 0);
   const auto& chosen = candidates[gate ? gate::choose_calibrated(candidates, *gate).chosen : 0];
-  auto strip = refine::strip_along(estimator::curve_of(chosen), frame);
+  const refine::Curve curve = estimator::curve_of(chosen);
+  auto strip = refine::strip_along(curve, frame);
   if (!strip) return std::optional<StripSample>();
   StripSample sample{truth_of(chosen.nodes, eval::canonical(scene->truth())), *std::move(strip)};
+  sample.to_table = ways_to_table(curve, sample.strip);
   sample.truth.scene = scene->meta.index;
   sample.truth.matched = scene->meta.camera.ends_with("matched") ? 1.0F : 0.0F;
   sample.truth.radius_m = chosen.radius_m;
@@ -85,7 +98,7 @@ Result<std::vector<survey::Bytes>> packed_strips(const DataConfig& config, std::
     survey::Packer packer;
     packer.put((*sample)->truth);
     packer.put_all((*sample)->strip.values);
-    packer.put((*sample)->strip.to_table);
+    packer.put((*sample)->to_table);
     packed.push_back(std::move(packer.bytes));
   }
   return packed;
@@ -117,7 +130,7 @@ Result<std::vector<StripSample>> read_strips(const std::filesystem::path& folder
     survey::Unpacker unpacker(*bytes);
     unpacker.get(samples[i].truth);
     unpacker.get_all(samples[i].strip.values);
-    unpacker.get(samples[i].strip.to_table);
+    unpacker.get(samples[i].to_table);
     const bool whole = unpacker.fine() && samples[i].strip.values.size() == kStripFloats;
     if (!whole) return survey::damaged(store->file_of(i), kStrips);
   }

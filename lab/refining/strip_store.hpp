@@ -32,6 +32,8 @@ struct StripTruth {
 struct StripSample {
   StripTruth truth;
   refine::Strip strip;
+  /// Deep, radii: the way of each node to the table, from its share of it in the strip.
+  std::array<float, kNodes> to_table{};
 };
 
 /// Makes the shards that are not in `folder` yet, `threads` at work: of each scene with a path the

@@ -90,8 +90,7 @@ Batch batch_of(const std::vector<StripSample>& samples, const std::vector<std::s
     const StripSample& sample = samples[which[static_cast<std::size_t>(i)]];
     std::copy(sample.strip.values.begin(), sample.strip.values.end(),
               batch.strips[i].data_ptr<float>());
-    std::copy(sample.strip.to_table.begin(), sample.strip.to_table.end(),
-              batch.to_table[i].data_ptr<float>());
+    std::copy(sample.to_table.begin(), sample.to_table.end(), batch.to_table[i].data_ptr<float>());
     float* to = batch.truth[i].data_ptr<float>();
     for (std::size_t node = 0; node < kNodes; ++node) {
       *to++ = sample.truth.deep[node];

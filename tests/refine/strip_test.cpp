@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "geometry/camera.hpp"
+#include "refine/local_frame.hpp"
 #include "support/straight_rope.hpp"
 
 namespace flowdlo::refine {
@@ -14,6 +16,13 @@ using testing::StraightRope;
 
 float at(const Strip& strip, int station, int column) {
   return strip.values[static_cast<std::size_t>(station * weights::kRefineInputs + column)];
+}
+
+/// Deep, radii.
+float way_to_table(const Strip& strip, const Curve& curve, std::size_t node) {
+  const auto frames = local_frames(curve.nodes);
+  return (strip.table_share[node] - 1) *
+         geometry::to_eigen(curve.nodes[node]).dot(frames[node]->deep) / curve.radius_m;
 }
 
 TEST(Strip, ShowsMaskAndDepthAcrossTheRope) {
@@ -59,9 +68,9 @@ TEST(Strip, SaysHowFarNodesLieFromTheTable) {
   const auto strip = strip_along(curve, rope.frame());
   ASSERT_TRUE(strip);
   for (std::size_t i = 0; i < kNodes; ++i) {
-    EXPECT_NEAR(strip->to_table[i], -2, 0.15F);
+    EXPECT_NEAR(way_to_table(*strip, curve, i), -2, 0.15F);
     const auto station = static_cast<int>(i) * kStationsOfNode;
-    EXPECT_NEAR(at(*strip, station, kTable), std::asinh(strip->to_table[i]) / 2, 1e-6F);
+    EXPECT_NEAR(at(*strip, station, kTable), std::asinh(way_to_table(*strip, curve, i)) / 2, 1e-6F);
     EXPECT_NEAR(at(*strip, station, kTableOff), -10.0F / (1.4826F * 4) / 3, 0.1F);
     EXPECT_EQ(at(*strip, station, kTableNear), 1);
     EXPECT_EQ(at(*strip, station, kTableSeen), 1);
@@ -84,10 +93,11 @@ Curve arched(const StraightRope& rope, std::size_t first, std::size_t last) {
 
 TEST(Strip, ARopeOnItsTableMayHaveALongWayToItWhereNothingSupportsIt) {
   const StraightRope rope;
-  const auto strip = strip_along(arched(rope, 20, 39), rope.frame());
+  const Curve curve = arched(rope, 20, 39);
+  const auto strip = strip_along(curve, rope.frame());
   ASSERT_TRUE(strip);
-  EXPECT_NEAR(strip->to_table[30], 10, 0.3F);
-  EXPECT_NEAR(strip->to_table[10], 0, 0.02F);
+  EXPECT_NEAR(way_to_table(*strip, curve, 30), 10, 0.3F);
+  EXPECT_NEAR(way_to_table(*strip, curve, 10), 0, 0.02F);
   EXPECT_NEAR(at(*strip, 40, kTableSeen), 44.0F / 64, 1e-6F);
   EXPECT_EQ(at(*strip, 40, kTableNear), 1);
 }
@@ -98,7 +108,7 @@ TEST(Strip, ARopeInTheAirHasNoWayToATable) {
   curve.unseen_m.fill(0);
   const auto strip = strip_along(curve, rope.frame());
   ASSERT_TRUE(strip);
-  for (const float way : strip->to_table) EXPECT_EQ(way, 0);
+  for (const float share : strip->table_share) EXPECT_EQ(share, 1);
   EXPECT_LT(at(*strip, 128, kTableNear), 0.25F);
   EXPECT_GT(at(*strip, 128, kTable), 1);  // it is told all the same
 }
@@ -119,7 +129,7 @@ TEST(Strip, NoTableWhereNothingIsSeenBesideTheRope) {
   }
   const auto strip = strip_along(rope.curve(), rope.frame());
   ASSERT_TRUE(strip);
-  for (const float way : strip->to_table) EXPECT_EQ(way, 0);
+  for (const float share : strip->table_share) EXPECT_EQ(share, 1);
   for (int column = kTable; column < kColumnsUsed; ++column) {
     EXPECT_EQ(at(*strip, 128, column), 0) << column;
   }

@@ -51,13 +51,7 @@ class Scene {
   }
 
   [[nodiscard]] Frame frame() const {
-    Frame frame;
-    frame.width = kWidth;
-    frame.height = kHeight;
-    frame.depth_m = depth_m_;
-    frame.mask = mask_;
-    frame.intrinsics = {600, 600, 320, 240};
-    return frame;
+    return {kWidth, kHeight, {600, 600, 320, 240}, depth_m_, mask_, {}};
   }
 
   std::optional<Table> table() {
@@ -94,7 +88,9 @@ TEST(Table, IsThePlaneThatLiesBesideTheRope) {
   EXPECT_GT(table->known, 0.95F);
   EXPECT_LT(table->misfit, 0.01F);  // of an inverse depth of 2: the median of whole pixels
   for (const Beside& beside : scene.beside) {
-    if (beside.sides > 0) EXPECT_NEAR(beside.depth_m, 0.5F, 0.15F);
+    if (beside.sides > 0) {
+      EXPECT_NEAR(beside.depth_m, 0.5F, 0.15F);
+    }
   }
 }
 

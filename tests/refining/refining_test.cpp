@@ -46,6 +46,16 @@ std::vector<StripSample> strips(int count) {
   return samples;
 }
 
+Recipe short_recipe(int steps) {
+  Recipe recipe;
+  recipe.name = "test";
+  recipe.schedule.steps = steps;
+  recipe.schedule.batch = 4;
+  recipe.schedule.warmup_steps = 5;
+  recipe.schedule.ema_decay = 0.9;
+  return recipe;
+}
+
 TEST(Refining, TheEngineSaysWhatTheTrainedNetworkSays) {
   torch::manual_seed(4);
   Network network;
@@ -77,12 +87,7 @@ TEST(Refining, TheEngineSaysWhatTheTrainedNetworkSays) {
 }
 
 TEST(Refining, LearnsWhatItsStripsShow) {
-  Recipe recipe;
-  recipe.name = "test";
-  recipe.schedule.steps = 60;
-  recipe.schedule.batch = 4;
-  recipe.schedule.warmup_steps = 5;
-  recipe.schedule.ema_decay = 0.9;
+  const Recipe recipe = short_recipe(60);
   const auto samples = strips(25);
   const auto trained = train(recipe, samples, {});
   ASSERT_TRUE(trained) << trained.error().message;
@@ -114,8 +119,8 @@ std::vector<StripSample> laid_strips(int count) {
   for (StripSample& sample : samples) {
     const bool laid = sample.truth.scene % 2 == 0;
     for (std::size_t node = 0; node < kNodes; ++node) {
-      sample.strip.to_table[node] = value(random);
-      sample.truth.deep[node] = laid ? sample.strip.to_table[node] : 0;
+      sample.to_table[node] = value(random);
+      sample.truth.deep[node] = laid ? sample.to_table[node] : 0;
     }
     for (std::size_t station = 0; station < refine::kStations; ++station) {
       auto* const row = sample.strip.values.data() + station * weights::kRefineInputs;
@@ -127,13 +132,8 @@ std::vector<StripSample> laid_strips(int count) {
 }
 
 TEST(Refining, LearnsWhichRopesLieOnTheirTable) {
-  Recipe recipe;
-  recipe.name = "test";
-  recipe.schedule.steps = 120;
+  Recipe recipe = short_recipe(120);
   recipe.schedule.rate = 0.004;
-  recipe.schedule.batch = 4;
-  recipe.schedule.warmup_steps = 5;
-  recipe.schedule.ema_decay = 0.9;
   const auto samples = laid_strips(25);
   const auto trained = train(recipe, samples, {});
   ASSERT_TRUE(trained) << trained.error().message;
@@ -171,7 +171,9 @@ TEST(Refining, AnUnevenSceneMovesRopeAndDepthAlike) {
     if (u < 0 || v < 0 || u >= scene->folder.width || v >= scene->folder.height) continue;
     const auto pixel = static_cast<std::size_t>(v * scene->folder.width + u);
     const float moved_m = wavy.folder.depth_m[pixel] - scene->folder.depth_m[pixel];
-    if (scene->folder.depth_m[pixel] > 0) EXPECT_NEAR(moved_m, after.z - before.z, 1e-3F);
+    if (scene->folder.depth_m[pixel] > 0) {
+      EXPECT_NEAR(moved_m, after.z - before.z, 1e-3F);
+    }
     most_m = std::max(most_m, std::abs(static_cast<double>(after.z - before.z)));
   }
   EXPECT_GT(most_m, 5e-4);

@@ -37,13 +37,7 @@ class StraightRope {
   }
 
   [[nodiscard]] Frame frame() const {
-    Frame frame;
-    frame.width = kWidth;
-    frame.height = kHeight;
-    frame.depth_m = depth_m_;
-    frame.mask = mask_;
-    frame.intrinsics = {500, 500, 160, 60};
-    return frame;
+    return {kWidth, kHeight, {500, 500, 160, 60}, depth_m_, mask_, {}};
   }
   [[nodiscard]] refine::Curve curve() const { return curve_; }
   [[nodiscard]] std::vector<float>& depth_m() { return depth_m_; }
