@@ -60,6 +60,10 @@ struct Batch {
   Tensor strips;    // [n, kStations, kRefineInputs]
   Tensor to_table;  // [n, kNodes] radii
   Tensor truth;     // [n, kNodes, 2]
+
+  [[nodiscard]] Batch to(torch::Device device) const {
+    return {strips.to(device), to_table.to(device), truth.to(device)};
+  }
 };
 
 /// Seen in a mirror, from the other end, or both.
@@ -252,6 +256,7 @@ weights::RefineWeights exported(const Network& network, const std::string& notes
 }
 
 Result<Trained> train(const Recipe& recipe, const std::vector<StripSample>& samples,
+                      torch::Device device,
                       const std::function<void(const std::string&)>& on_note) {
   const Schedule& schedule = recipe.schedule;
   std::vector<std::size_t> which;
@@ -274,6 +279,8 @@ Result<Trained> train(const Recipe& recipe, const std::vector<StripSample>& samp
   std::discrete_distribution<std::size_t> draw(shares.begin(), shares.end());
   Network network;
   Network average;
+  network->to(device);
+  average->to(device);
   follow(average, network, 0);
   torch::optim::AdamW optimizer(network->parameters(), torch::optim::AdamWOptions(schedule.rate)
                                                            .weight_decay(schedule.weight_decay)
@@ -286,7 +293,8 @@ Result<Trained> train(const Recipe& recipe, const std::vector<StripSample>& samp
     std::vector<std::size_t> drawn;
     for (int i = 0; i < schedule.batch; ++i) drawn.push_back(which[draw(random)]);
     const auto turns = random();
-    const Batch batch = varied(batch_of(samples, drawn), (turns & 1U) != 0, (turns & 2U) != 0);
+    const Batch batch =
+        varied(batch_of(samples, drawn), (turns & 1U) != 0, (turns & 2U) != 0).to(device);
     const Tensor loss = loss_of(moved(network, batch), batch.truth, schedule.harm);
     const double value = loss.item<double>();
     if (!std::isfinite(value)) {
@@ -308,6 +316,7 @@ Result<Trained> train(const Recipe& recipe, const std::vector<StripSample>& samp
       total = 0;
     }
   }
+  average->to(torch::kCPU);
   return Trained{average, table_of(average, samples, schedule)};
 }
 

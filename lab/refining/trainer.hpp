@@ -17,7 +17,8 @@ class NetworkImpl : public torch::nn::Module {
  public:
   NetworkImpl();
 
-  /// [n, kStations, kRefineInputs] to [n, kNodes, 2]: deep and aside, radii.
+  /// [n, kStations, kRefineInputs] to [n, kNodes, 3]: deep and aside, radii, and the logit of the
+  /// share of the way to the table.
   torch::Tensor forward(const torch::Tensor& strips);
 
   torch::nn::Conv2d stem{nullptr};
@@ -30,13 +31,14 @@ TORCH_MODULE(Network);
 [[nodiscard]] weights::RefineWeights exported(const Network& network, const std::string& notes);
 
 struct Trained {
-  Network network{nullptr};  ///< the average over the last steps
+  Network network{nullptr};  ///< the average over the last steps, on the CPU
   std::string table;         ///< Markdown: errors before and after, of scenes that were held out
 };
 
-/// Trains on four of five scenes. Fails with kBadInput where fewer than ten strips are left, with
-/// kInternal where the loss stops being finite.
+/// Trains on four of five scenes, on `device`. Fails with kBadInput where fewer than ten strips are
+/// left, with kInternal where the loss stops being finite.
 [[nodiscard]] Result<Trained> train(const Recipe& recipe, const std::vector<StripSample>& samples,
+                                    torch::Device device,
                                     const std::function<void(const std::string&)>& on_note);
 
 }  // namespace flowdlo::refining

@@ -23,6 +23,7 @@ struct Arguments {
   std::filesystem::path recipe;
   std::filesystem::path field;
   std::filesystem::path folder;
+  std::string device = "auto";
   int threads = 0;
   bool records_only = false;
   bool quiet = false;
@@ -30,6 +31,8 @@ struct Arguments {
 };
 
 int refine(const Arguments& arguments) {
+  const auto device = choose_device(arguments.device);
+  if (!device) return failed(device.error());
   const auto recipe = refining::read_recipe(arguments.recipe);
   if (!recipe) return failed(recipe.error(), 2);
   auto loaded = weights::load_field(arguments.field);
@@ -45,14 +48,14 @@ int refine(const Arguments& arguments) {
   const auto samples = refining::read_strips(strips);
   if (!samples) return failed(samples.error());
   use_threads(arguments.threads);
-  const auto trained = refining::train(*recipe, *samples, [&](const std::string& line) {
+  const auto trained = refining::train(*recipe, *samples, *device, [&](const std::string& line) {
     if (!arguments.quiet) fmt::print("{}\n", line);
     std::fflush(stdout);
   });
   if (!trained) return failed(trained.error());
   field->refine = refining::exported(
       trained->network,
-      fmt::format("{}; {} strips; {}", arguments.command, samples->size(), describe(torch::kCPU)));
+      fmt::format("{}; {} strips; {}", arguments.command, samples->size(), describe(*device)));
   const auto file = arguments.folder / "field.safetensors";
   if (auto saved = weights::save_field(*field, file); !saved) return failed(saved.error());
   fmt::print("{}{}: the field of {} with this network\n", trained->table, file.string(),
@@ -75,6 +78,8 @@ void add_refine_command(CLI::App& app, int argc, char** argv, int& exit_code) {
   command->add_option("--field", arguments->field, "Weights of a strand field, .safetensors")
       ->required();
   command->add_option("--out", arguments->folder, "Folder of strips and result")->required();
+  command->add_option("--device", arguments->device, "What trains; strips are made by the CPU")
+      ->check(CLI::IsMember({"auto", "cpu", "cuda"}));
   command->add_option("--threads", arguments->threads, "0: one a core")->check(CLI::Range(0, 1024));
   command->add_flag("--records-only", arguments->records_only, "Make the strips and end");
   command->add_flag("--quiet", arguments->quiet, "No lines of progress");

@@ -89,7 +89,7 @@ TEST(Refining, TheEngineSaysWhatTheTrainedNetworkSays) {
 TEST(Refining, LearnsWhatItsStripsShow) {
   const Recipe recipe = short_recipe(60);
   const auto samples = strips(25);
-  const auto trained = train(recipe, samples, {});
+  const auto trained = train(recipe, samples, torch::kCPU, {});
   ASSERT_TRUE(trained) << trained.error().message;
   const torch::NoGradGuard no_gradients;
   double before = 0;
@@ -135,7 +135,7 @@ TEST(Refining, LearnsWhichRopesLieOnTheirTable) {
   Recipe recipe = short_recipe(120);
   recipe.schedule.rate = 0.004;
   const auto samples = laid_strips(25);
-  const auto trained = train(recipe, samples, {});
+  const auto trained = train(recipe, samples, torch::kCPU, {});
   ASSERT_TRUE(trained) << trained.error().message;
   auto engine = refine::Network::create(exported(trained->network, "test"),
                                         [] { return reference::create_program(1); });
@@ -184,7 +184,7 @@ TEST(Refining, AnUnevenSceneMovesRopeAndDepthAlike) {
 
 TEST(Refining, TooFewStripsAreRefused) {
   Recipe recipe;
-  const auto trained = train(recipe, strips(5), {});
+  const auto trained = train(recipe, strips(5), torch::kCPU, {});
   ASSERT_FALSE(trained);
   EXPECT_EQ(trained.error().code, ErrorCode::kBadInput);
   EXPECT_NE(trained.error().message.find("data.scenes"), std::string::npos);
