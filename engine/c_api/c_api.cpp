@@ -47,6 +47,7 @@ static_assert(FLOWDLO_DOUBT_NO_ROPE == 1U << static_cast<int>(Doubt::kNoRope));
 static_assert(FLOWDLO_DOUBT_STRANDS_LEFT == 1U << static_cast<int>(Doubt::kStrandsLeft));
 static_assert(FLOWDLO_DOUBT_BARE_GAP == 1U << static_cast<int>(Doubt::kBareGap));
 static_assert(FLOWDLO_DOUBT_GOES_ON == 1U << static_cast<int>(Doubt::kGoesOn));
+static_assert(FLOWDLO_DOUBT_NO_DEPTH == 1U << static_cast<int>(Doubt::kNoDepth));
 static_assert(FLOWDLO_LEFT_OUT_MODEL == 1U << static_cast<int>(LeftOut::kModel));
 static_assert(FLOWDLO_LEFT_OUT_FIELD == 1U << static_cast<int>(LeftOut::kField));
 static_assert(FLOWDLO_LEFT_OUT_READINGS == 1U << static_cast<int>(LeftOut::kReadings));
@@ -237,7 +238,7 @@ const char* flowdlo_origin_name(int32_t origin) {
 }
 
 const char* flowdlo_doubt_name(uint32_t doubt) {
-  return c_api::name_of_bit(doubt, flowdlo::Doubt::kGoesOn);
+  return c_api::name_of_bit(doubt, flowdlo::Doubt::kNoDepth);
 }
 
 const char* flowdlo_left_out_name(uint32_t part) {

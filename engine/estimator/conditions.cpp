@@ -11,8 +11,9 @@ namespace {
 
 Error no_evidence() {
   return {ErrorCode::kNoEvidence,
-          "Frame: expected depth on the mask, got no mask pixel with a depth above 1e-6 m; check "
-          "the mask, and that depth is in metres and aligned to it"};
+          "Frame: expected depth on the mask or beside it, got no mask pixel with a depth above "
+          "1e-6 m, and too little beside the mask to tell what the rope lies on; check the mask, "
+          "and that depth is in metres and aligned to it"};
 }
 
 /// Paths and hypotheses of `conditions`, where the paths have any.

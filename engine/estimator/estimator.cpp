@@ -20,6 +20,7 @@
 #include "estimator/several.hpp"
 #include "estimator/stopwatch.hpp"
 #include "estimator/tensors.hpp"
+#include "evidence/ground_depth.hpp"
 #include "evidence/mask_field.hpp"
 #include "field/strand_field.hpp"
 #include "flow/sampler.hpp"
@@ -196,11 +197,14 @@ Result<estimator::Sampled> Estimator::Impl::sample(const Frame& frame,
 
 /// The field first. Where that leaves doubt, a closer look through it and the mask alone, and the
 /// model beside them; then the choice.
-Result<Estimate> Estimator::Impl::estimate(const Frame& frame, const Hints& hints, Tensors* tensors,
+Result<Estimate> Estimator::Impl::estimate(const Frame& given, const Hints& hints, Tensors* tensors,
                                            const estimator::Budget& budget,
                                            const estimator::Traced* traced) {
-  if (auto valid = validate(frame); !valid) return valid.error();
-  if (auto valid = estimator::check(hints, frame); !valid) return valid.error();
+  if (auto valid = validate(given); !valid) return valid.error();
+  if (auto valid = estimator::check(hints, given); !valid) return valid.error();
+  const auto ground_m = evidence::ground_depth(given);  // of a rope that shows none
+  Frame frame = given;
+  if (ground_m) frame.depth_m = *ground_m;
   const estimator::ReadConfig reading{estimator::prior_kind(config, metadata),
                                       hints.rope_length_m.value_or(config.rope_length_m),
                                       estimator::end_directions(hints, frame.intrinsics), &pool};
@@ -255,6 +259,7 @@ Result<Estimate> Estimator::Impl::estimate(const Frame& frame, const Hints& hint
       estimator::conclude(*std::move(judged), std::move(sampled.verdict.draws), mask, frame);
   estimate.calibrated = calibrated();
   estimate.left_out = std::move(left_out);
+  if (ground_m) estimator::doubt_depth(estimate);
   estimator::turn(estimate, hints, frame.intrinsics);
   stage.lap(timings.gate_ms);
   gate_cost.saw(timings.gate_ms, 1);

@@ -130,4 +130,10 @@ Estimate conclude(Judged judged, std::vector<DrawReport> draws, const gate::Dila
   return estimate;
 }
 
+void doubt_depth(Estimate& estimate) {
+  estimate.support.fill(0);
+  estimate.one_rope.doubts.push_back(Doubt::kNoDepth);
+  estimate.confidence = gate::doubted(estimate.confidence, estimate.one_rope);
+}
+
 }  // namespace flowdlo::estimator

@@ -85,4 +85,7 @@ class Judge {
 [[nodiscard]] Estimate conclude(Judged judged, std::vector<DrawReport> draws,
                                 const gate::DilatedMask& mask, const Frame& frame);
 
+/// `estimate`, whose depth is that of the ground (evidence/ground_depth): no depth supports a node.
+void doubt_depth(Estimate& estimate);
+
 }  // namespace flowdlo::estimator

@@ -28,6 +28,8 @@ struct BesideRope {
     at.to_px = static_cast<int>(std::lround(static_cast<float>(at.to_px) * scale));
     return at;
   }
+  /// From the mask's edge to the middle of where depths are read.
+  [[nodiscard]] float middle_px() const { return 0.5F * static_cast<float>(from_px + to_px); }
 };
 
 inline constexpr std::size_t kLeastBeside = 3;  ///< depths

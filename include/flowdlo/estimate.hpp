@@ -71,9 +71,10 @@ enum class Doubt {
   kStrandsLeft,  ///< the nodes leave strands of the mask out
   kBareGap,      ///< the nodes cross plain background from one piece of the mask to another
   kGoesOn,       ///< depth shows the rope going on where the mask ends
+  kNoDepth,      ///< the rope shows no depth: it is taken to lie on what is seen beside it
 };
 
-/// "no_rope", "strands_left", "bare_gap" or "goes_on".
+/// "no_rope", "strands_left", "bare_gap", "goes_on" or "no_depth".
 [[nodiscard]] constexpr const char* name_of(Doubt doubt) {
   switch (doubt) {
     case Doubt::kNoRope:
@@ -84,6 +85,8 @@ enum class Doubt {
       return "bare_gap";
     case Doubt::kGoesOn:
       return "goes_on";
+    case Doubt::kNoDepth:
+      return "no_depth";
   }
   return "unknown";
 }

@@ -247,7 +247,8 @@ enum {
   FLOWDLO_DOUBT_NO_ROPE = 1,      /* what the mask shows has not the shape of a rope */
   FLOWDLO_DOUBT_STRANDS_LEFT = 2, /* the nodes leave strands of the mask out */
   FLOWDLO_DOUBT_BARE_GAP = 4,     /* the nodes cross plain background between pieces of the mask */
-  FLOWDLO_DOUBT_GOES_ON = 8       /* depth shows the rope going on where the mask ends */
+  FLOWDLO_DOUBT_GOES_ON = 8,      /* depth shows the rope going on where the mask ends */
+  FLOWDLO_DOUBT_NO_DEPTH = 16     /* it shows no depth: it is taken to lie on what is beside it */
 };
 
 /* What flowdlo_config.budget_ms left no time for: bits of flowdlo_estimate.left_out. */

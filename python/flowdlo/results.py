@@ -39,7 +39,7 @@ class OneRope:
     off_mask: float  #: [0, 1] share of the nodes off the mask where nothing hides them
     bare_gap: float  #: longest stretch of nodes on plain background, widths
     goes_on: float  #: how far the rope is seen going on beyond the mask, widths
-    doubts: tuple[str, ...]  #: of "no_rope", "strands_left", "bare_gap", "goes_on"
+    doubts: tuple[str, ...]  #: of "no_rope", "strands_left", "bare_gap", "goes_on", "no_depth"
 
 
 @dataclass(frozen=True)

@@ -393,6 +393,7 @@ TEST(CApi, SourcesOriginsDoubtsAndPartsLeftOutHaveOneNameInEveryLanguage) {
   EXPECT_STREQ(flowdlo_doubt_name(FLOWDLO_DOUBT_STRANDS_LEFT), "strands_left");
   EXPECT_STREQ(flowdlo_doubt_name(FLOWDLO_DOUBT_BARE_GAP), "bare_gap");
   EXPECT_STREQ(flowdlo_doubt_name(FLOWDLO_DOUBT_GOES_ON), "goes_on");
+  EXPECT_STREQ(flowdlo_doubt_name(FLOWDLO_DOUBT_NO_DEPTH), "no_depth");
   EXPECT_STREQ(flowdlo_left_out_name(FLOWDLO_LEFT_OUT_MODEL), "model");
   EXPECT_STREQ(flowdlo_left_out_name(FLOWDLO_LEFT_OUT_FIELD), "strand_field");
   EXPECT_STREQ(flowdlo_left_out_name(FLOWDLO_LEFT_OUT_READINGS), "readings");
@@ -405,7 +406,7 @@ TEST(CApi, WhatIsNoValueIsCalledUnknown) {
   for (const int value : {-1, FLOWDLO_ORIGIN_DRAW + 1, INT32_MAX, INT32_MIN}) {
     EXPECT_STREQ(flowdlo_origin_name(value), "unknown") << value;
   }
-  for (const std::uint32_t bits : {0U, 3U, 2U * FLOWDLO_DOUBT_GOES_ON, UINT32_MAX}) {
+  for (const std::uint32_t bits : {0U, 3U, 2U * FLOWDLO_DOUBT_NO_DEPTH, UINT32_MAX}) {
     EXPECT_STREQ(flowdlo_doubt_name(bits), "unknown") << bits;
   }
   for (const std::uint32_t bits : {0U, 6U, 2U * FLOWDLO_LEFT_OUT_READINGS, UINT32_MAX}) {

@@ -51,6 +51,13 @@ Ropes estimate(Estimator& estimator, const Frame& frame) {
   return *std::move(ropes);
 }
 
+/// Takes the depth of a labelled rope, or of all that is no rope, away.
+void hide(std::uint16_t label, lab::RopesScene& scene) {
+  for (std::size_t p = 0; p < scene.image.depth_m.size(); ++p) {
+    if (scene.image.instances[p] == label) scene.image.depth_m[p] = 0;
+  }
+}
+
 TEST(EstimateRopes, EveryRopeIsFoundLongestFirst) {
   const auto scene = make_ropes(RopesKind::kCrossing, 3, 0);
   auto estimator = make(0);
@@ -236,15 +243,27 @@ TEST(EstimateRopes, LabelsThatAreNotThereAndTooManyAreErrors) {
   EXPECT_THAT(short_.error().message, HasSubstr("Frame.instances: expected"));
 }
 
-TEST(EstimateRopes, ARopeWithoutDepthIsLeftOutAndOnlyRopesWithoutAnyAreAFault) {
+TEST(EstimateRopes, ARopeWithoutDepthIsTakenToLieOnTheTable) {
   auto scene = make_ropes(RopesKind::kCrossing, 3, 0);
   auto estimator = make(0);
-  const auto hide = [&](std::uint16_t rope) {
-    for (std::size_t p = 0; p < scene.image.depth_m.size(); ++p) {
-      if (scene.image.instances[p] == rope) scene.image.depth_m[p] = 0;
-    }
-  };
-  hide(2);
+  hide(2, scene);
+  const Ropes found = estimate(estimator, scene.frame(true));
+  ASSERT_EQ(found.ropes.size(), 3U);
+  std::size_t hidden = 0;
+  for (std::size_t p = 0; p < found.instances.size(); ++p) {
+    if (scene.image.instances[p] == 2) hidden = found.instances[p];
+  }
+  for (std::size_t i = 0; i < found.ropes.size(); ++i) {
+    const auto& doubts = found.ropes[i].one_rope.doubts;
+    EXPECT_EQ(std::count(doubts.begin(), doubts.end(), Doubt::kNoDepth), i + 1 == hidden ? 1 : 0);
+  }
+}
+
+TEST(EstimateRopes, ARopeOfWhichNothingIsKnownIsLeftOutAndOnlyRopesWithoutAnyAreAFault) {
+  auto scene = make_ropes(RopesKind::kCrossing, 3, 0);
+  auto estimator = make(0);
+  hide(0, scene);
+  hide(2, scene);
   const Ropes found = estimate(estimator, scene.frame(true));
   ASSERT_EQ(found.ropes.size(), 2U);
   for (std::size_t p = 0; p < found.instances.size(); ++p) {
@@ -252,8 +271,8 @@ TEST(EstimateRopes, ARopeWithoutDepthIsLeftOutAndOnlyRopesWithoutAnyAreAFault) {
     ASSERT_EQ(found.instances[p] != 0, rope == 1 || rope == 3);
     ASSERT_LE(found.instances[p], 2);
   }
-  hide(1);
-  hide(3);
+  hide(1, scene);
+  hide(3, scene);
   const auto none = estimator.estimate_ropes(scene.frame(true));
   ASSERT_FALSE(none);
   EXPECT_EQ(none.error().code, ErrorCode::kNoEvidence);

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "reference/program.hpp"
@@ -58,10 +59,11 @@ TEST(Refined, NoFartherThanAllowed) {
 
 /// Depths beside the rope that are 4 mm off either way, in stretches of 8 px.
 StraightRope on_a_noisy_table() {
+  constexpr std::array<float, 5> kOff_m{0, 7e-3F, -3.6e-3F, 3.6e-3F, -7e-3F};
   StraightRope rope;
   const auto mask = rope.frame().mask;
   for (std::size_t i = 0; i < rope.depth_m().size(); ++i) {
-    if (mask[i] == 0) rope.depth_m()[i] += i % StraightRope::kWidth / 8 % 2 == 0 ? 4e-3F : -4e-3F;
+    if (mask[i] == 0) rope.depth_m()[i] += kOff_m[i % StraightRope::kWidth / 8 % kOff_m.size()];
   }
   return rope;
 }

@@ -64,6 +64,8 @@ const char* words_of(Doubt doubt) {
       return "the nodes cross plain background";
     case Doubt::kGoesOn:
       return "depth shows the rope going on where the mask ends";
+    case Doubt::kNoDepth:
+      return "the rope shows no depth: it is taken to lie on what is seen beside it";
   }
   return "";
 }
