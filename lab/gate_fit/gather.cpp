@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <utility>
 
@@ -29,6 +30,9 @@ constexpr const char* kPairs = "pairs";   // a split of two drawn ropes in one m
 // depth as matching two pictures gives it.
 constexpr const char* kMatched = "matched";
 constexpr std::uint64_t kFirstMatched = kFirstUntrained + 2 * kApart;
+constexpr const char* kRings =
+    "rings";  // a split of the rings among scenes of several ropes, alone
+constexpr std::uint64_t kFirstRing = kFirstUntrained + 3 * kApart;
 constexpr int kPixels = 1280 * 720;
 
 /// Scenes of another kind, one on so many of the split.
@@ -39,11 +43,12 @@ struct Extra {
   std::uint64_t first = 0;
 };
 
-constexpr std::array<Extra, 5> kExtras{{{"thesis", 4, false},
+constexpr std::array<Extra, 6> kExtras{{{"thesis", 4, false},
                                         {"drawn", 4, true},
                                         {"several", 8, true},
                                         {kPairs, 8, true},
-                                        {kMatched, 3, false, kFirstMatched}}};
+                                        {kMatched, 3, false, kFirstMatched},
+                                        {kRings, 2, true, kFirstRing}}};
 
 /// Scenes of one split and part, with or without the model.
 struct Batch {
@@ -108,9 +113,29 @@ MaybeFrame pair_of(synth::Part part, std::uint64_t index, bool color) {
   return std::optional(*std::move(first));
 }
 
+/// A ring of a scene of several ropes, the only one in the mask; nothing of a scene without one.
+MaybeFrame ring_of(synth::Part part, std::uint64_t index, bool color) {
+  const auto scenario = synth::scenario_of(synth::Split::kSeveral, part, /*seed=*/0, index);
+  if (!scenario) return scenario.error();
+  if (*scenario != "ropes-ring") return std::optional<synth::SyntheticFrame>();
+  auto scene = synth::frame_at(synth::Split::kSeveral, part, index, {.color = color});
+  if (!scene) return scene.error();
+  const auto ring = std::find_if(scene->ropes.begin(), scene->ropes.end(),
+                                 [](const synth::TrueRope& rope) { return rope.closed; });
+  if (ring == scene->ropes.end()) return std::optional<synth::SyntheticFrame>();
+  const auto label = static_cast<std::uint16_t>(ring - scene->ropes.begin() + 1);
+  for (std::size_t pixel = 0; pixel < scene->folder.mask.size(); ++pixel) {
+    if (scene->folder.instances[pixel] != label) scene->folder.mask[pixel] = 0;
+  }
+  scene->folder.instances.clear();
+  scene->ropes = {*ring};
+  return std::optional(*std::move(scene));
+}
+
 MaybeFrame frame_of(const SampleOrigin& origin, std::uint64_t index, bool color) {
   const synth::Part part = *synth::part_of(origin.part);
   if (origin.split == kPairs) return pair_of(part, index, color);
+  if (origin.split == kRings) return ring_of(part, index, color);
   const bool matched = origin.split == kMatched;
   auto scene = synth::frame_at(matched ? synth::Split::kWide : *synth::split_of(origin.split), part,
                                index, {.color = color, .matched = matched});

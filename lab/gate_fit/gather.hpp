@@ -52,7 +52,8 @@ using Samples = std::vector<GateSample>;
 
 /// What that many such scenes lack: clean depth on a table, so that what is sure counts as well;
 /// tubes before nothing, so that a frame counts that shows no more than a rope; several ropes in
-/// one mask, rendered and drawn, so that no confidence is left for them.
+/// one mask, rendered and drawn, so that no confidence is left for them; depth as a stereo camera
+/// matches it; rings, which no scene of one rope has.
 [[nodiscard]] Result<Samples> beside_split(const GatherConfig& config, int scenes);
 
 }  // namespace flowdlo::lab

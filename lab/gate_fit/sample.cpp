@@ -9,6 +9,7 @@
 #include "evidence/mask_field.hpp"
 #include "gate/gate.hpp"
 #include "gate/one_rope.hpp"
+#include "gate_fit/true_ring.hpp"
 #include "refine/refined.hpp"
 
 namespace flowdlo::lab {
@@ -83,6 +84,9 @@ std::optional<GateSample> measure(const synth::SyntheticFrame& scene, flow::Samp
                        : estimator::refined(candidate, look, frame, *refine, rope_length_m);
     if (!refined) return std::nullopt;
     sample.refined.push_back(refined->nodes);
+  }
+  if (scene.ropes.front().closed && !sample.several) {
+    sample.truth = eval::canonical(true_ring(scene.truth(), sample.answer(0)));
   }
   for (std::size_t i = 0; i < sample.candidates.size(); ++i) {
     const auto one = gate::one_rope(sample.answer(i), frame, conditions->paths.rope_width_px);

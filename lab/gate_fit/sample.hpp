@@ -23,7 +23,8 @@ struct GateSample {
   bool easy = false;
   bool hard = false;
   bool several = false;                     ///< ropes lie in the mask, and no candidate is right
-  Centerline truth{};                       ///< canonical direction
+  Centerline truth{};                       ///< canonical direction; of a ring the beginning that
+                                            ///< is nearest to what is returned first
   std::vector<gate::Candidate> candidates;  ///< as estimator::list_candidates lists them
   std::vector<Centerline> refined;  ///< [candidates] what is returned of each; empty: its own nodes
   std::vector<std::uint8_t> doubted;  ///< [candidates] 1: gate::one_rope doubts it; empty: unknown

@@ -20,7 +20,7 @@
 #include "flowdlo/flowdlo.h"
 #include "flowdlo/frame_folder.hpp"
 #include "frame/temporary_folder.hpp"
-#include "support/ring_frame.hpp"
+#include "support/rose_frame.hpp"
 #include "support/source_dir.hpp"
 #include "support/wave_frame.hpp"
 
@@ -32,7 +32,7 @@ using testing::empty_estimate;
 using testing::Handle;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
-using testing::RingFrame;
+using testing::RoseFrame;
 using ::testing::SizeIs;
 using ::testing::StartsWith;
 using testing::WaveFrame;
@@ -136,11 +136,11 @@ TEST(CApi, ACamerasOwnImagesGiveTheBitsOfTheirMetres) {
   expect_same(estimate, reference(FLOWDLO_DEFAULT_WEIGHTS, wave.frame()));
 }
 
-TEST(CApi, AlternativesAndDoubtsAreThoseOfCpp) {  // a ring leaves both
-  const RingFrame ring;
-  const Estimate expected = reference(FLOWDLO_DEFAULT_WEIGHTS, ring.frame());
+TEST(CApi, AlternativesAndDoubtsAreThoseOfCpp) {  // a rose leaves other ways
+  const RoseFrame rose;
+  const Estimate expected = reference(FLOWDLO_DEFAULT_WEIGHTS, rose.frame());
   const Handle estimator = make(config_with(FLOWDLO_DEFAULT_WEIGHTS));
-  const flowdlo_frame frame = c_frame(ring.frame());
+  const flowdlo_frame frame = c_frame(rose.frame());
   flowdlo_estimate estimate = empty_estimate();
   ASSERT_EQ(flowdlo_estimator_estimate(estimator.get(), &frame, &estimate), FLOWDLO_OK);
   expect_same(estimate, expected);
@@ -164,15 +164,15 @@ TEST(CApi, AlternativesAndDoubtsAreThoseOfCpp) {  // a ring leaves both
 }
 
 TEST(CApi, AFailedEstimateLeavesNoAlternativesAndTheResultAlone) {
-  const RingFrame ring;
+  const RoseFrame rose;
   const Handle estimator = make(config_with(FLOWDLO_DEFAULT_WEIGHTS));
-  flowdlo_frame frame = c_frame(ring.frame());
+  flowdlo_frame frame = c_frame(rose.frame());
   flowdlo_estimate estimate = empty_estimate();
   ASSERT_EQ(flowdlo_estimator_estimate(estimator.get(), &frame, &estimate), FLOWDLO_OK);
   ASSERT_GT(estimate.alternatives, 0);
 
   const flowdlo_estimate before = estimate;
-  const std::vector<std::uint8_t> nothing(ring.mask.size(), 0);
+  const std::vector<std::uint8_t> nothing(rose.mask.size(), 0);
   frame.mask.data = nothing.data();
   EXPECT_EQ(flowdlo_estimator_estimate(estimator.get(), &frame, &estimate), FLOWDLO_NO_EVIDENCE);
   EXPECT_TRUE(same_bits(before, estimate));

@@ -7,7 +7,7 @@
 #include <stdexcept>
 
 #include "flowdlo/estimator.hpp"
-#include "support/ring_frame.hpp"
+#include "support/rose_frame.hpp"
 #include "support/wave_frame.hpp"
 
 namespace flowdlo {
@@ -79,13 +79,13 @@ TEST(Budget, WithoutTimeAClearFrameIsThePriorOfItsFirstReading) {
 }
 
 TEST(Budget, WithoutTimeADoubtfulFrameIsReadOnce) {
-  const testing::RingFrame ring;
+  const testing::RoseFrame rose;
   for (const int threads : {1, 2}) {
     Config config = within(kNoTime_ms, threads);
-    const Estimate beside = estimated(config, ring.frame());
+    const Estimate beside = estimated(config, rose.frame());
     EXPECT_THAT(beside.left_out, ElementsAre(LeftOut::kModel, LeftOut::kField, LeftOut::kReadings));
     config.field = FieldChoice::kOff;
-    const Estimate alone = estimated(config, ring.frame());
+    const Estimate alone = estimated(config, rose.frame());
     EXPECT_THAT(alone.left_out, ElementsAre(LeftOut::kModel));
     for (const Estimate& estimate : {beside, alone}) {
       EXPECT_EQ(estimate.readings, 1);
@@ -95,9 +95,9 @@ TEST(Budget, WithoutTimeADoubtfulFrameIsReadOnce) {
 }
 
 TEST(Budget, WithTimeEnoughTheEstimateIsThatWithoutABudget) {
-  const testing::RingFrame ring;
-  const Estimate without = estimated(within(0), ring.frame());
-  const Estimate with = estimated(within(kAllTheTime_ms), ring.frame());
+  const testing::RoseFrame rose;
+  const Estimate without = estimated(within(0), rose.frame());
+  const Estimate with = estimated(within(kAllTheTime_ms), rose.frame());
   EXPECT_THAT(with.left_out, IsEmpty());
   EXPECT_GT(with.readings, 1);
   EXPECT_EQ(with.nodes, without.nodes);

@@ -16,7 +16,7 @@
 
 #include "flowdlo/frame_folder.hpp"
 #include "support/estimate_bits.hpp"
-#include "support/ring_frame.hpp"
+#include "support/rose_frame.hpp"
 #include "support/source_dir.hpp"
 #include "support/wave_frame.hpp"
 
@@ -25,7 +25,7 @@ namespace {
 
 using testing::bits_of;
 using testing::EstimateBits;
-using testing::RingFrame;
+using testing::RoseFrame;
 using testing::WaveFrame;
 
 constexpr int kRepeats = 16;  // where nothing else is said
@@ -57,13 +57,13 @@ class Frames {
  public:
   static constexpr int kCount = 2;
 
-  [[nodiscard]] Frame operator[](int i) const { return i % kCount == 0 ? loop() : ring_.frame(); }
+  [[nodiscard]] Frame operator[](int i) const { return i % kCount == 0 ? loop() : rose_.frame(); }
   [[nodiscard]] Frame loop() const { return loop_->frame(); }
 
  private:
   Result<FrameFolder> loop_ =
       load_frame_folder(test::source_dir() / "examples/frames/overhand_loop");
-  RingFrame ring_;
+  RoseFrame rose_;
 };
 
 class SameBits : public ::testing::TestWithParam<const char*> {

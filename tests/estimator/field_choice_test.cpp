@@ -12,7 +12,7 @@
 #include "flowdlo/estimator.hpp"
 #include "geometry/polyline.hpp"
 #include "scene/scene.hpp"
-#include "support/ring_frame.hpp"
+#include "support/rose_frame.hpp"
 #include "support/wave_frame.hpp"
 #include "weights/field_weights.hpp"
 #include "weights/location.hpp"
@@ -113,7 +113,7 @@ TEST(FieldChoice, StrandsThatTheMaskMergesAreToldApartWithIt) {
 
 TEST(FieldChoice, WithQualityFastTheModelIsAskedWithoutAFieldAlone) {
   const testing::WaveFrame clear = clear_wave();
-  const testing::RingFrame doubtful;
+  const testing::RoseFrame doubtful;
   Config config = small(FLOWDLO_DEFAULT_WEIGHTS);
   auto full = Estimator::create(config);
   config.quality = Quality::kFast;

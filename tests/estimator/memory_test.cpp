@@ -6,7 +6,7 @@
 #include <string>
 
 #include "flowdlo/estimator.hpp"
-#include "support/ring_frame.hpp"
+#include "support/rose_frame.hpp"
 
 namespace flowdlo {
 namespace {
@@ -47,7 +47,7 @@ TEST_P(Memory, OfEstimatorsThatAreGoneIsFree) {
 /// ever called them.
 TEST_P(Memory, OfFramesThatAreDoneIsFree) {
   if (in_use_bytes() == 0) GTEST_SKIP() << "another allocator is in place";
-  const testing::RingFrame ring;
+  const testing::RoseFrame rose;
   auto made = Estimator::create({.weights = FLOWDLO_WEIGHTS,
                                  .device = GetParam(),
                                  .euler_steps = 1,
@@ -61,7 +61,7 @@ TEST_P(Memory, OfFramesThatAreDoneIsFree) {
   std::size_t before = 0;
   for (int i = 0; i < kFirstFrames + kFrames; ++i) {
     if (i == kFirstFrames) before = in_use_bytes();
-    const auto estimate = made->estimate(ring.frame());
+    const auto estimate = made->estimate(rose.frame());
     ASSERT_TRUE(estimate) << estimate.error().message;
     ASSERT_GT(estimate->readings, 1);
   }

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "flowdlo/estimator.hpp"
-#include "support/ring_frame.hpp"
+#include "support/rose_frame.hpp"
 #include "support/thread_limit.hpp"
 #include "support/wave_frame.hpp"
 
@@ -21,7 +21,7 @@ Config config(int threads) {
 }
 
 TEST(FewThreads, GiveTheSameBits) {
-  const testing::RingFrame frame;
+  const testing::RoseFrame frame;
   auto all = Estimator::create(config(4));
   ASSERT_TRUE(all) << all.error().message;
   const auto expected = all->estimate(frame.frame());

@@ -6,7 +6,7 @@
 #include <stdexcept>
 
 #include "flowdlo/estimator.hpp"
-#include "support/ring_frame.hpp"
+#include "support/rose_frame.hpp"
 
 namespace flowdlo {
 namespace {
@@ -32,13 +32,13 @@ Timings timings_of(int threads) {
   config.field_weights = FLOWDLO_FIELD_WEIGHTS;
   auto estimator = Estimator::create(config);
   if (!estimator) throw std::runtime_error(estimator.error().message);
-  const testing::RingFrame ring;
+  const testing::RoseFrame rose;
   const auto unaccounted = [](const Timings& timings) {
     return std::abs((others_ms(timings) + timings.readings_ms) / timings.total_ms - 1);
   };
   std::optional<Timings> best;
   for (int call = 0; call < 8; ++call) {
-    auto estimate = estimator->estimate(ring.frame());
+    auto estimate = estimator->estimate(rose.frame());
     if (!estimate) throw std::runtime_error(estimate.error().message);
     if (estimate->readings < 2) throw std::runtime_error("the frame was read once only");
     if (!best || unaccounted(estimate->timings) < unaccounted(*best)) best = estimate->timings;

@@ -8,7 +8,7 @@
 #include "flowdlo/estimator.hpp"
 #include "memory/sweep.hpp"
 #include "support/estimate_bits.hpp"
-#include "support/ring_frame.hpp"
+#include "support/rose_frame.hpp"
 #include "support/wave_frame.hpp"
 
 namespace flowdlo::testing {
@@ -110,7 +110,7 @@ TEST(EstimatorMemory, TheCurveSurvivesEveryAllocation) {
 }
 
 TEST(EstimatorMemory, EstimateOfAFrameInDoubtSurvivesEveryAllocation) {
-  const RingFrame frame;
+  const RoseFrame frame;
   auto estimator = Estimator::create(cpu(FLOWDLO_DEFAULT_WEIGHTS));
   ASSERT_TRUE(estimator);
   const auto estimate = estimator->estimate(frame.frame());

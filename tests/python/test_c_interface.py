@@ -140,20 +140,20 @@ def test_a_frame_with_color(handle, folder, estimator):
     )
 
 
-def test_units_in_padded_rows(handle, ring, estimator):
+def test_units_in_padded_rows(handle, rose, estimator):
     wide = np.full((240, 333), 9999, np.uint16)
-    wide[:, :320] = ring.units
-    in_c = estimated(handle, wide[:, :320], ring.mask, ring.intrinsics)
-    assert_same(in_c, estimator.estimate(ring.depth_m, ring.mask, ring.intrinsics))
+    wide[:, :320] = rose.units
+    in_c = estimated(handle, wide[:, :320], rose.mask, rose.intrinsics)
+    assert_same(in_c, estimator.estimate(rose.depth_m, rose.mask, rose.intrinsics))
 
 
-def test_a_region_of_interest_is_the_images_part(handle, ring, estimator):
+def test_a_region_of_interest_is_the_images_part(handle, rose, estimator):
     u, v, width, height = 40, 21, 250, 211
     part = (slice(v, v + height), slice(u, u + width))
-    fx, fy, cx, cy = ring.intrinsics
-    in_c = estimated(handle, ring.depth_m, ring.mask, ring.intrinsics, roi=(u, v, width, height))
+    fx, fy, cx, cy = rose.intrinsics
+    in_c = estimated(handle, rose.depth_m, rose.mask, rose.intrinsics, roi=(u, v, width, height))
     assert_same(
-        in_c, estimator.estimate(ring.depth_m[part], ring.mask[part], (fx, fy, cx - u, cy - v))
+        in_c, estimator.estimate(rose.depth_m[part], rose.mask[part], (fx, fy, cx - u, cy - v))
     )
 
 

@@ -34,9 +34,9 @@ def test_they_can_be_pickled():
     assert type(error) is flowdlo.Io and str(error) == "who: expected A, got B"
 
 
-def test_a_frame_without_evidence(ring, estimator):
+def test_a_frame_without_evidence(rose, estimator):
     with pytest.raises(flowdlo.NoEvidence) as caught:
-        estimator.estimate(np.zeros_like(ring.depth_m), ring.mask, ring.intrinsics)
+        estimator.estimate(np.zeros_like(rose.depth_m), rose.mask, rose.intrinsics)
     assert caught.value.code == "no_evidence" and str(caught.value)
 
 
@@ -113,22 +113,22 @@ def test_the_defaults_can_be_given():
             assert (estimator.euler_steps, estimator.draws) == (usual.euler_steps, usual.draws)
 
 
-def test_a_closed_estimator_says_so(ring):
+def test_a_closed_estimator_says_so(rose):
     estimator = flowdlo.Estimator(**SMALL)
     estimator.close()
     estimator.close()
     with pytest.raises(flowdlo.BadInput, match="closed"):
-        estimator.estimate(ring.depth_m, ring.mask, ring.intrinsics)
+        estimator.estimate(rose.depth_m, rose.mask, rose.intrinsics)
     with pytest.raises(flowdlo.BadInput, match="closed"):
         print(estimator.device)
 
 
-def test_the_compiled_module_holds_its_callers_to_packed_arrays(ring):
+def test_the_compiled_module_holds_its_callers_to_packed_arrays(rose):
     core = _core.Estimator({"device": "cpu", "euler_steps": 1, "draws": 1})
-    camera = tuple(ring.intrinsics)
+    camera = tuple(rose.intrinsics)
     with pytest.raises(TypeError):
-        core.estimate(np.asfortranarray(ring.depth_m), ring.mask, camera, None, None)
+        core.estimate(np.asfortranarray(rose.depth_m), rose.mask, camera, None, None)
     with pytest.raises(flowdlo.BadInput, match="two dimensions"):
-        core.estimate(ring.depth_m.ravel(), ring.mask, camera, None, None)
+        core.estimate(rose.depth_m.ravel(), rose.mask, camera, None, None)
     with pytest.raises(flowdlo.BadInput, match="Frame.mask"):
-        core.estimate(ring.depth_m, ring.mask[:5].copy(), camera, None, None)
+        core.estimate(rose.depth_m, rose.mask[:5].copy(), camera, None, None)

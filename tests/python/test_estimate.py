@@ -41,11 +41,11 @@ def test_the_bits_are_those_of_the_command(command, examples, folder, estimator,
     assert [draw.accepted for draw in estimate.draws] == [d["accepted"] for d in said["draws"]]
 
 
-def test_doubts_and_alternatives_are_those_of_the_command(command, ring, estimator, tmp_path):
-    frame = tmp_path / "ring"
-    save(frame, ring)
+def test_doubts_and_alternatives_are_those_of_the_command(command, rose, estimator, tmp_path):
+    frame = tmp_path / "rose"
+    save(frame, rose)
     nodes, said = by_command(command, frame, tmp_path / "out")
-    estimate = estimator.estimate(ring.units, ring.mask, ring.intrinsics, depth_scale=0.001)
+    estimate = estimator.estimate(rose.units, rose.mask, rose.intrinsics, depth_scale=0.001)
     assert estimate.nodes.tobytes() == nodes.tobytes()
     assert estimate.readings > 1
     assert list(estimate.one_rope.doubts) == said["one_rope"]["doubts"]
@@ -53,8 +53,8 @@ def test_doubts_and_alternatives_are_those_of_the_command(command, ring, estimat
     assert estimate.alternatives[0].nodes.shape == (64, 3)
 
 
-def save(frame, ring):
-    """The ring as a frame folder; PNG by hand takes zlib and checksums, and no other package."""
+def save(frame, rose):
+    """The rose as a frame folder; PNG by hand takes zlib and checksums, and no other package."""
     import struct
     import zlib
 
@@ -77,9 +77,9 @@ def save(frame, ring):
         )
 
     frame.mkdir()
-    (frame / "depth.png").write_bytes(png(ring.units))
-    (frame / "mask.png").write_bytes(png(ring.mask))
-    camera = {"width": 320, "height": 240, "depth_scale": 0.001, **ring.intrinsics._asdict()}
+    (frame / "depth.png").write_bytes(png(rose.units))
+    (frame / "mask.png").write_bytes(png(rose.mask))
+    camera = {"width": 320, "height": 240, "depth_scale": 0.001, **rose.intrinsics._asdict()}
     (frame / "camera.json").write_text(json.dumps(camera))
 
 
@@ -104,26 +104,26 @@ def test_an_estimate_outlives_its_estimator_and_may_be_changed(folder):
     assert np.array_equal(estimate.nodes, before + 1)
 
 
-def test_an_estimate_can_be_pickled(ring, estimator):
-    estimate = estimator.estimate(ring.depth_m, ring.mask, ring.intrinsics)
+def test_an_estimate_can_be_pickled(rose, estimator):
+    estimate = estimator.estimate(rose.depth_m, rose.mask, rose.intrinsics)
     assert bits(pickle.loads(pickle.dumps(estimate))) == bits(estimate)
 
 
-def test_color_reaches_the_field(ring, estimator):
+def test_color_reaches_the_field(rose, estimator):
     """The strand field reads a frame that leaves doubt, and it looks at colour."""
-    plain = estimator.estimate(ring.depth_m, ring.mask, ring.intrinsics)
+    plain = estimator.estimate(rose.depth_m, rose.mask, rose.intrinsics)
     noise = np.random.default_rng(1).integers(0, 255, (240, 320, 3), dtype=np.uint8)
-    coloured = estimator.estimate(ring.depth_m, ring.mask, ring.intrinsics, noise)
-    again = estimator.estimate(ring.depth_m, ring.mask, ring.intrinsics, noise)
+    coloured = estimator.estimate(rose.depth_m, rose.mask, rose.intrinsics, noise)
+    again = estimator.estimate(rose.depth_m, rose.mask, rose.intrinsics, noise)
     assert bits(coloured) == bits(again)
     assert bits(coloured) != bits(plain)
 
 
-def test_the_seed_is_heard(ring):
+def test_the_seed_is_heard(rose):
     found = []
     for seed in (0, 2**64 - 1, 0):
         with flowdlo.Estimator(**SMALL, gate="thesis", seed=seed) as estimator:
-            found.append(estimator.estimate(ring.depth_m, ring.mask, ring.intrinsics))
+            found.append(estimator.estimate(rose.depth_m, rose.mask, rose.intrinsics))
     assert bits(found[0]) == bits(found[2])
     assert found[0].draws != found[1].draws
 

@@ -144,9 +144,9 @@ def test_the_curve_is_as_dense_as_asked(estimator):
         estimate.curve(1)
 
 
-def test_what_the_budget_left_out_is_said(ring):
+def test_what_the_budget_left_out_is_said(rose):
     with flowdlo.Estimator(budget_ms=1e-6, **SMALL) as hurried:
-        estimate = hurried.estimate(ring.depth_m, ring.mask, ring.intrinsics)
+        estimate = hurried.estimate(rose.depth_m, rose.mask, rose.intrinsics)
     assert estimate.left_out == ("model", "strand_field", "readings")
     with pytest.raises(flowdlo.BadInput, match="budget_ms"):
         flowdlo.Estimator(budget_ms=-1.0, **SMALL)

@@ -56,22 +56,22 @@ def test_other_threads_run_while_an_estimator_is_made():
     assert found > 2
 
 
-def test_other_threads_run_during_an_estimate(ring):
+def test_other_threads_run_during_an_estimate(rose):
     core = _core.Estimator({"device": "cpu", "draws": 8, "threads": 1})
-    camera = tuple(ring.intrinsics)
+    camera = tuple(rose.intrinsics)
     found = max(
-        ticks_within(lambda: core.estimate(ring.depth_m, ring.mask, camera, None, None)) for _ in range(3)
+        ticks_within(lambda: core.estimate(rose.depth_m, rose.mask, camera, None, None)) for _ in range(3)
     )
     assert found > 5
 
 
-def test_calls_on_one_estimator_wait_for_each_other(ring, estimator):
-    expected = bits(estimator.estimate(ring.depth_m, ring.mask, ring.intrinsics))
+def test_calls_on_one_estimator_wait_for_each_other(rose, estimator):
+    expected = bits(estimator.estimate(rose.depth_m, rose.mask, rose.intrinsics))
     found = []
 
     def work():
         for _ in range(3):
-            found.append(bits(estimator.estimate(ring.depth_m, ring.mask, ring.intrinsics)))
+            found.append(bits(estimator.estimate(rose.depth_m, rose.mask, rose.intrinsics)))
 
     threads = [threading.Thread(target=work) for _ in range(4)]
     for thread in threads:
@@ -81,14 +81,14 @@ def test_calls_on_one_estimator_wait_for_each_other(ring, estimator):
     assert found == [expected] * 12
 
 
-def test_closing_waits_for_an_estimate(ring):
+def test_closing_waits_for_an_estimate(rose):
     estimator = flowdlo.Estimator(**SMALL)
     outcomes = []
 
     def work():
         try:
             while True:
-                outcomes.append(estimator.estimate(ring.depth_m, ring.mask, ring.intrinsics))
+                outcomes.append(estimator.estimate(rose.depth_m, rose.mask, rose.intrinsics))
         except flowdlo.BadInput as error:
             outcomes.append(error)
 
@@ -103,13 +103,13 @@ def test_closing_waits_for_an_estimate(ring):
 
 @pytest.mark.skipif(not hasattr(os, "fork"), reason="no fork on this system")
 @pytest.mark.filterwarnings("ignore::DeprecationWarning")
-def test_a_forked_process_is_told_to_make_its_own(ring, estimator):
-    estimator.estimate(ring.depth_m, ring.mask, ring.intrinsics)
+def test_a_forked_process_is_told_to_make_its_own(rose, estimator):
+    estimator.estimate(rose.depth_m, rose.mask, rose.intrinsics)
     child = os.fork()
     if child == 0:
         outcome = 1
         try:
-            estimator.estimate(ring.depth_m, ring.mask, ring.intrinsics)
+            estimator.estimate(rose.depth_m, rose.mask, rose.intrinsics)
         except flowdlo.DeviceLost:
             outcome = 0
         finally:

@@ -15,14 +15,14 @@
 
 #include "flowdlo/estimator.hpp"
 #include "support/estimate_bits.hpp"
-#include "support/ring_frame.hpp"
+#include "support/rose_frame.hpp"
 
 namespace flowdlo {
 namespace {
 
 using testing::bits_of;
 using testing::EstimateBits;
-using testing::RingFrame;
+using testing::RoseFrame;
 
 constexpr int kEstimators = 8;
 constexpr int kFrames = 2;  // that each sees
@@ -63,16 +63,16 @@ void side_by_side(int count, const std::function<void(int)>& work) {
 
 /// Made, used and destroyed side by side.
 void expect_the_bits_of_one_alone(const Config& config) {
-  const RingFrame ring;
+  const RoseFrame rose;
   const EstimateBits alone = [&] {
     auto estimator = make(config);
-    return bits_of(estimator, ring.frame());
+    return bits_of(estimator, rose.frame());
   }();
   std::vector<int> same(kEstimators, 0);
   side_by_side(kEstimators, [&](int i) {
     auto estimator = make(config);
     for (int frame = 0; frame < kFrames; ++frame) {
-      same[static_cast<std::size_t>(i)] += bits_of(estimator, ring.frame()) == alone ? 1 : 0;
+      same[static_cast<std::size_t>(i)] += bits_of(estimator, rose.frame()) == alone ? 1 : 0;
     }
   });
   for (const int frames : same) EXPECT_EQ(frames, kFrames);
@@ -110,24 +110,24 @@ TEST(EightEstimators, OneAThreadOnVulkanGiveTheBitsOfOneAlone) {
 
 /// The strand field is asked on a thread beside the crew's: all that an estimator ever starts.
 TEST(OneEstimator, AsksTheStrandFieldBesideTheModel) {
-  const RingFrame ring;
+  const RoseFrame rose;
   Config config = busy("cpu");
   config.field_weights = FLOWDLO_FIELD_WEIGHTS;
   auto estimator = make(config);
-  const EstimateBits before = bits_of(estimator, ring.frame());
-  const auto estimate = estimator.estimate(ring.frame());
+  const EstimateBits before = bits_of(estimator, rose.frame());
+  const auto estimate = estimator.estimate(rose.frame());
   ASSERT_TRUE(estimate) << estimate.error().message;
   EXPECT_GT(estimate->readings, 1) << "the field is asked where there is doubt";
-  EXPECT_EQ(bits_of(estimator, ring.frame()), before);
+  EXPECT_EQ(bits_of(estimator, rose.frame()), before);
 }
 
 TEST(OneEstimator, GoesFromThreadToThread) {
-  const RingFrame ring;
+  const RoseFrame rose;
   std::optional<Estimator> estimator;
   std::optional<EstimateBits> before;
   side_by_side(1, [&](int) { estimator = make(busy("cpu")); });
-  side_by_side(1, [&](int) { before = bits_of(*estimator, ring.frame()); });
-  side_by_side(1, [&](int) { EXPECT_EQ(bits_of(*estimator, ring.frame()), *before); });
+  side_by_side(1, [&](int) { before = bits_of(*estimator, rose.frame()); });
+  side_by_side(1, [&](int) { EXPECT_EQ(bits_of(*estimator, rose.frame()), *before); });
   side_by_side(1, [&](int) { estimator.reset(); });
 }
 
