@@ -37,6 +37,10 @@ Value value_of(Result<Value>&& result) {
   return *std::move(result);
 }
 
+void done(const Result<void>& result) {
+  if (!result) throw Failure(result.error());
+}
+
 /// What `work` gives; meanwhile other threads of Python run.
 template <class Work>
 auto without_lock(const Work& work) {
@@ -268,6 +272,16 @@ PYBIND11_MODULE(_core, module) {
   module.def("inspect_weights", [](const py::bytes& file) {
     const std::string path = file;
     return dict_of(value_of(without_lock([&] { return inspect_weights(path); })));
+  });
+  module.def("export_safetensors", [](const py::bytes& weights, const py::bytes& output) {
+    const std::string from = weights;
+    const std::string to = output;
+    done(without_lock([&] { return export_safetensors(from, to); }));
+  });
+  module.def("import_safetensors", [](const py::bytes& input, const py::bytes& weights) {
+    const std::string from = input;
+    const std::string to = weights;
+    done(without_lock([&] { return import_safetensors(from, to); }));
   });
   add_masks(module);
 }

@@ -58,14 +58,27 @@ std::string shown(const std::string& device) {
   return result;
 }
 
+/// "doubt: no depth, goes on".
+std::string shown(const std::vector<Doubt>& doubts) {
+  std::string result;
+  for (const Doubt doubt : doubts) {
+    result += (result.empty() ? "doubt: " : ", ") + std::string(name_of(doubt));
+  }
+  std::replace(result.begin(), result.end(), '_', ' ');
+  return result;
+}
+
 Legend legend_of(const Estimate& estimate, const std::string& device) {
   const auto supported = std::count(estimate.support.begin(), estimate.support.end(), 1);
-  return {{source_of(estimate),
-           fmt::format("confidence {:.2f}   mask agreement {:.2f}", estimate.confidence,
-                       estimate.mask_agreement),
-           fmt::format("{}   {:.0f} ms", shown(device), estimate.timings.total_ms)},
-          {{kSupportedColor, fmt::format("supported {}", supported)},
-           {kBridgedColor, fmt::format("bridged {}", kNodes - supported)}}};
+  Legend legend{{source_of(estimate),
+                 fmt::format("confidence {:.2f}   mask agreement {:.2f}", estimate.confidence,
+                             estimate.mask_agreement),
+                 fmt::format("{}   {:.0f} ms", shown(device), estimate.timings.total_ms)},
+                {{kSupportedColor, fmt::format("supported {}", supported)},
+                 {kBridgedColor, fmt::format("bridged {}", kNodes - supported)}}};
+  const auto& doubts = estimate.one_rope.doubts;
+  if (!doubts.empty()) legend.lines.push_back(shown(doubts));
+  return legend;
 }
 
 Legend legend_of(const TrackedRopes& tracked, const std::string& device) {

@@ -23,7 +23,14 @@ from .errors import (
     OutOfMemory,
 )
 from .estimator import Estimator, Tracker
-from .inspection import default_config, inspect_weights, load_frame_folder, survey_devices
+from .inspection import (
+    default_config,
+    export_safetensors,
+    import_safetensors,
+    inspect_weights,
+    load_frame_folder,
+    survey_devices,
+)
 from .masks import clean_mask, mask_from_color, mask_from_plane, mask_from_seeds
 from .results import (
     Alternative,
@@ -75,6 +82,8 @@ __all__ = [
     "__version__",
     "clean_mask",
     "default_config",
+    "export_safetensors",
+    "import_safetensors",
     "inspect_weights",
     "load_frame_folder",
     "mask_from_color",

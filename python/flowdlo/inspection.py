@@ -45,3 +45,20 @@ def inspect_weights(file: Path) -> WeightsInfo:
     found = _core.inspect_weights(arguments.path("file", file))
     found["tensors"] = tuple(TensorInfo(**tensor) for tensor in found["tensors"])
     return WeightsInfo(**found)
+
+
+def export_safetensors(weights: Path, output: Path) -> None:
+    """Writes a .fdw file as .safetensors, which PyTorch and others read, metadata included.
+
+    `output` is written whole or not at all. Raises Io or BadWeights.
+    """
+    _core.export_safetensors(arguments.path("weights", weights), arguments.path("output", output))
+
+
+def import_safetensors(input: Path, weights: Path) -> None:
+    """Writes a .safetensors file as the .fdw file that `Estimator` reads.
+
+    Tensors are named, and the metadata's keys are, as `export_safetensors` writes them. `weights` is
+    written whole or not at all. Raises Io or BadWeights, listing every mismatch.
+    """
+    _core.import_safetensors(arguments.path("input", input), arguments.path("weights", weights))

@@ -6,6 +6,7 @@ import os
 import subprocess
 
 import numpy as np
+import pytest
 
 import flowdlo
 
@@ -71,3 +72,34 @@ def test_weights_can_be_looked_into():
     assert {tensor.dtype for tensor in info.tensors} <= {"f32", "f16"}
     assert len(bytes.fromhex(info.sha256)) == hashlib.sha256().digest_size
     assert info.metadata
+
+
+def test_weights_go_out_and_come_back(tmp_path, rose):
+    file = os.environ["FLOWDLO_DEFAULT_WEIGHTS"]
+    tensors = tmp_path / "model.safetensors"
+    back = tmp_path / "model.fdw"
+    flowdlo.export_safetensors(file, tensors)
+    length = int.from_bytes(tensors.read_bytes()[:8], "little")
+    header = json.loads(tensors.read_bytes()[8 : 8 + length])
+    before = flowdlo.inspect_weights(file)
+    for tensor in before.tensors:
+        assert tuple(header[tensor.name]["shape"]) == tuple(tensor.shape)
+    flowdlo.import_safetensors(tensors, back)
+    after = flowdlo.inspect_weights(back)
+    assert (after.sha256, after.tensors) == (before.sha256, before.tensors)
+    with flowdlo.Estimator(weights=back, device="cpu", field="off", euler_steps=1, draws=1) as estimator:
+        assert estimator.estimate(rose.depth_m, rose.mask, rose.intrinsics).nodes.shape == (64, 3)
+
+
+def test_weights_that_are_none_leave_no_file(tmp_path):
+    wrong = tmp_path / "wrong.safetensors"
+    wrong.write_bytes(b"no tensors at all")
+    with pytest.raises(flowdlo.BadWeights):
+        flowdlo.import_safetensors(wrong, tmp_path / "model.fdw")
+    with pytest.raises(flowdlo.BadWeights):
+        flowdlo.export_safetensors(wrong, tmp_path / "model.safetensors")
+    with pytest.raises(flowdlo.Io):
+        flowdlo.export_safetensors(tmp_path / "missing.fdw", tmp_path / "model.safetensors")
+    with pytest.raises(flowdlo.BadInput, match="output: expected a path"):
+        flowdlo.export_safetensors(wrong, 3)
+    assert sorted(tmp_path.iterdir()) == [wrong]

@@ -98,6 +98,22 @@ TEST(Overlay, EndsAreMarkedBeyondTheTips) {
   EXPECT_GT(pixels_near(picture, kRimColor, {548, 225, 25, 30}), 60) << "B, dark";
 }
 
+TEST(Overlay, DoubtsAreALineOfTheLegend) {
+  const Scene scene;
+  Estimate estimate = test::sample_estimate();
+  const auto height_px = [&] {
+    const auto picture = draw_overlay(scene.frame(), estimate, "cpu");
+    int dark = 0;
+    for (int v = 0; v < 200; ++v) dark += picture.at(v, 12)[1] < 40 ? 1 : 0;
+    return dark;
+  };
+  estimate.one_rope.doubts.clear();
+  const int without = height_px();
+  estimate.one_rope.doubts = {Doubt::kNoDepth, Doubt::kGoesOn};
+  EXPECT_GT(without, 40);
+  EXPECT_NEAR(height_px(), 1.25 * without, 0.1 * without) << "four lines were there";
+}
+
 TEST(Overlay, MaskIsOutlinedAlongItsBorderAndNowhereElse) {
   const Scene scene;
   const auto picture = draw_overlay(scene.frame(), Estimate{}, "cpu");
