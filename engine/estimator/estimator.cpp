@@ -368,22 +368,14 @@ Result<Estimate> Estimator::estimate(const Frame& frame, const Hints& hints, Ten
   return run(frame, hints, &tensors);
 }
 
-namespace {
-
-/// Of what was moved from.
-const std::string& no_device() {
-  static const std::string none;
-  return none;
-}
-
-}  // namespace
-
 const std::string& Estimator::device() const {
-  return impl_ ? impl_->networks.device() : no_device();
+  static const std::string none;  // of what was moved from
+  return impl_ ? impl_->networks.device() : none;
 }
 
 const std::string& Estimator::field_device() const {
-  return impl_ ? impl_->networks.field_device() : no_device();
+  static const std::string none;
+  return impl_ ? impl_->networks.field_device() : none;
 }
 
 int Estimator::euler_steps() const { return impl_ ? impl_->config.euler_steps : 0; }
