@@ -202,14 +202,16 @@ Result<Estimate> Estimator::Impl::estimate(const Frame& given, const Hints& hint
                                            const estimator::Traced* traced) {
   if (auto valid = validate(given); !valid) return valid.error();
   if (auto valid = estimator::check(hints, given); !valid) return valid.error();
+  Timings timings;
+  estimator::Stopwatch total;
+  estimator::Stopwatch stage;
   const auto ground_m = evidence::ground_depth(given);  // of a rope that shows none
+  stage.lap(timings.evidence_ms);
   Frame frame = given;
   if (ground_m) frame.depth_m = *ground_m;
   const estimator::ReadConfig reading{estimator::prior_kind(config, metadata),
                                       hints.rope_length_m.value_or(config.rope_length_m),
                                       estimator::end_directions(hints, frame.intrinsics), &pool};
-  Timings timings;
-  estimator::Stopwatch total;
   networks.begin_frame();
   bool no_time_for_field = false;
   estimator::SeeAxes see;
@@ -219,7 +221,7 @@ Result<Estimate> Estimator::Impl::estimate(const Frame& given, const Hints& hint
   auto conditions = estimator::gather(frame, reading, timings, traced, see);  // Sec. 3.2, 3.3
   if (!conditions) return conditions.error();
 
-  estimator::Stopwatch stage;
+  stage = {};
   const gate::DilatedMask mask(frame);
   const estimator::Judge judge(fitted ? &*fitted : nullptr, hints, *conditions, frame,
                                reading.rope_length_m, refine ? &*refine : nullptr);

@@ -8,6 +8,7 @@
 
 #include "evidence/beside_rope.hpp"
 #include "evidence/inverse_plane.hpp"
+#include "geometry/camera.hpp"
 #include "geometry/depth.hpp"
 #include "geometry/mask_box.hpp"
 
@@ -25,20 +26,6 @@ constexpr double kSurface = 0.9;  // radii over the ground; chosen on 46 trainin
 class Mask {
  public:
   explicit Mask(const Frame& frame) : frame_(frame) {}
-
-  /// `visit(u, v, index)` of every pixel of the mask.
-  template <class Visit>
-  void each(const Visit& visit) const {
-    for (int v = 0; v < frame_.height; ++v) {
-      const std::size_t first =
-          static_cast<std::size_t>(v) * static_cast<std::size_t>(frame_.width);
-      const std::uint8_t* const row = frame_.mask.data() + first;
-      for (int u = geometry::first_masked(row, 0, frame_.width); u < frame_.width;
-           u = geometry::first_masked(row, u + 1, frame_.width)) {
-        visit(u, v, first + static_cast<std::size_t>(u));
-      }
-    }
-  }
 
   /// False beyond the image.
   [[nodiscard]] bool bare(int u, int v) const {
@@ -71,9 +58,9 @@ struct Pixels {
   std::size_t measured = 0;
 };
 
-Pixels count(const Mask& mask, const Frame& frame) {
+Pixels count(const Frame& frame) {
   Pixels pixels;
-  mask.each([&](int, int, std::size_t index) {
+  geometry::each_masked(frame, [&](int, int, std::size_t index) {
     ++pixels.all;
     pixels.measured += geometry::measured(frame.depth_m[index]) ? 1U : 0U;
   });
@@ -81,13 +68,12 @@ Pixels count(const Mask& mask, const Frame& frame) {
 }
 
 Eigen::Vector3d ray_at(const Vector2f& px, const Intrinsics& camera) {
-  return {static_cast<double>((px.x() - camera.cx) / camera.fx),
-          static_cast<double>((px.y() - camera.cy) / camera.fy), 1};
+  return geometry::to_eigen(geometry::unproject(camera, px.x(), px.y(), 1)).cast<double>();
 }
 
-std::vector<Eigen::Vector2i> edge_of(const Mask& mask) {
+std::vector<Eigen::Vector2i> edge_of(const Mask& mask, const Frame& frame) {
   std::vector<Eigen::Vector2i> edge;
-  mask.each([&](int u, int v, std::size_t) {
+  geometry::each_masked(frame, [&](int u, int v, std::size_t) {
     if (mask.at_edge(u, v)) edge.emplace_back(u, v);
   });
   return edge;
@@ -114,19 +100,19 @@ std::vector<InverseDepth> beside_mask(const Mask& mask, const std::vector<Eigen:
 }  // namespace
 
 std::optional<std::vector<float>> ground_depth(const Frame& frame) {
-  const Mask mask(frame);
-  const Pixels pixels = count(mask, frame);
+  const Pixels pixels = count(frame);
   if (static_cast<float>(pixels.measured) >= kLeastMeasured * static_cast<float>(pixels.all)) {
     return std::nullopt;
   }
-  const auto edge = edge_of(mask);
+  const Mask mask(frame);
+  const auto edge = edge_of(mask, frame);
   const auto plane = inverse_plane(beside_mask(mask, edge, frame));
   if (!plane) return std::nullopt;
   // Both edges of a rope are about as long as it, so that this is half of its width.
   const double radius_px = static_cast<double>(pixels.all) / static_cast<double>(edge.size());
   const double radius_m_at_1_m = radius_px / static_cast<double>(frame.intrinsics.fx);
   std::vector<float> depth_m(frame.depth_m.begin(), frame.depth_m.end());
-  mask.each([&](int u, int v, std::size_t index) {
+  geometry::each_masked(frame, [&](int u, int v, std::size_t index) {
     if (geometry::measured(depth_m[index])) return;
     const Vector2f px(static_cast<float>(u), static_cast<float>(v));
     const double inverse = plane->normal.dot(ray_at(px, frame.intrinsics));

@@ -32,30 +32,22 @@ std::size_t pixels_a_point(const Frame& frame) {
   return std::max<std::size_t>(1, (masked + kMostPoints - 1) / kMostPoints);
 }
 
-/// `passed` counts the mask's pixels so far.
-void append_row(const Frame& frame, int v, std::size_t each, std::size_t& passed, Cloud& cloud) {
-  const int first = v * frame.width;
-  const std::uint8_t* const mask = frame.mask.data() + first;
-  for (int u = geometry::first_masked(mask, 0, frame.width); u < frame.width;
-       u = geometry::first_masked(mask, u + 1, frame.width)) {
-    if (each > 1 && passed++ % each != 0) continue;
-    const float depth_m = frame.depth_m[static_cast<std::size_t>(first + u)];
-    if (!std::isfinite(depth_m) || depth_m <= kMinDepth_m) continue;
-    const Point3 point = geometry::unproject(frame.intrinsics, static_cast<float>(u),
-                                             static_cast<float>(v), depth_m);  // Eq. (2.2)
-    if (!is_finite(point)) continue;  // a depth near the end of the float range
-    cloud.points_cam.push_back(point);
-    cloud.pixels.push_back(first + u);
-  }
-}
-
 }  // namespace
 
 Cloud unproject(const Frame& frame) {
   Cloud cloud;
   const std::size_t each = pixels_a_point(frame);
-  std::size_t passed = 0;
-  for (int v = 0; v < frame.height; ++v) append_row(frame, v, each, passed, cloud);
+  std::size_t passed = 0;  // of the mask's pixels
+  geometry::each_masked(frame, [&](int u, int v, std::size_t pixel) {
+    if (each > 1 && passed++ % each != 0) return;
+    const float depth_m = frame.depth_m[pixel];
+    if (!std::isfinite(depth_m) || depth_m <= kMinDepth_m) return;
+    const Point3 point = geometry::unproject(frame.intrinsics, static_cast<float>(u),
+                                             static_cast<float>(v), depth_m);  // Eq. (2.2)
+    if (!is_finite(point)) return;  // a depth near the end of the float range
+    cloud.points_cam.push_back(point);
+    cloud.pixels.push_back(static_cast<int>(pixel));
+  });
   return cloud;
 }
 

@@ -43,7 +43,7 @@ Depths depths_beside(std::span<const AxisPlace> places, const Frame& frame,
       const float depth_m = evidence::depth_beside(edge_px, outward, at, frame);
       if (depth_m <= 0) continue;
       const Vector2f p = edge_px + at.middle_px() * outward;
-      const Vector3f ray((p.x() - camera.cx) / camera.fx, (p.y() - camera.cy) / camera.fy, 1);
+      const Vector3f ray = geometry::to_eigen(geometry::unproject(camera, p.x(), p.y(), 1));
       depths.seen.push_back({ray.cast<double>(), 1 / static_cast<double>(depth_m)});
       depths.place.push_back(i);
       depths.side.push_back(side);

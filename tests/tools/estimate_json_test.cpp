@@ -110,11 +110,12 @@ TEST(EstimateJson, SaysWhyConfidenceIsLow) {
   auto estimate = test::sample_estimate();
   EXPECT_TRUE(Json::parse(estimate_json(estimate, kProvenance))["one_rope"]["doubts"].empty());
   estimate.one_rope.doubts = {Doubt::kNoRope, Doubt::kStrandsLeft, Doubt::kBareGap, Doubt::kGoesOn,
-                             Doubt::kNoDepth};
+                              Doubt::kNoDepth};
   estimate.one_rope.explained = 0.5F;
   estimate.one_rope.goes_on = 7.5F;
   const auto one = Json::parse(estimate_json(estimate, kProvenance))["one_rope"];
-  EXPECT_EQ(one["doubts"], Json::parse(R"(["no_rope", "strands_left", "bare_gap", "goes_on", "no_depth"])"));
+  EXPECT_EQ(one["doubts"],
+            Json::parse(R"(["no_rope", "strands_left", "bare_gap", "goes_on", "no_depth"])"));
   EXPECT_DOUBLE_EQ(one["explained"], 0.5);
   EXPECT_DOUBLE_EQ(one["goes_on"], 7.5);
 }
