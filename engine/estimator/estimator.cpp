@@ -56,8 +56,7 @@ struct FLOWDLO_HIDDEN Estimator::Impl {
   static Result<std::unique_ptr<Impl>> create(const Config& config, const VulkanHost* host);
   void learn_costs();
   Result<Estimate> estimate(const Frame& frame, const Hints& hints, Tensors* tensors,
-                            const estimator::Budget& budget,
-                            const estimator::Traced* traced = nullptr);
+                            const estimator::Budget& budget, const estimator::Part& part = {});
   [[nodiscard]] bool calibrated() const { return fitted.has_value(); }
   [[nodiscard]] std::optional<field::Axes> axes(const Frame& frame, float rope_width_px,
                                                 const estimator::Budget& budget, bool near_parts,
@@ -199,7 +198,7 @@ Result<estimator::Sampled> Estimator::Impl::sample(const Frame& frame,
 /// model beside them; then the choice.
 Result<Estimate> Estimator::Impl::estimate(const Frame& given, const Hints& hints, Tensors* tensors,
                                            const estimator::Budget& budget,
-                                           const estimator::Traced* traced) {
+                                           const estimator::Part& part) {
   if (auto valid = validate(given); !valid) return valid.error();
   if (auto valid = estimator::check(hints, given); !valid) return valid.error();
   Timings timings;
@@ -218,14 +217,14 @@ Result<Estimate> Estimator::Impl::estimate(const Frame& given, const Hints& hint
   if (networks.field() != nullptr) {
     see = [&](float px) { return axes(frame, px, budget, false, no_time_for_field); };
   }
-  auto conditions = estimator::gather(frame, reading, timings, traced, see);  // Sec. 3.2, 3.3
+  auto conditions = estimator::gather(frame, reading, timings, part.traced, see);  // Sec. 3.2, 3.3
   if (!conditions) return conditions.error();
 
   stage = {};
   const gate::DilatedMask mask(frame);
   const estimator::Judge judge(fitted ? &*fitted : nullptr, hints, *conditions, frame,
-                               reading.rope_length_m, refine ? &*refine : nullptr);
-  auto first = judge.of_first(traced != nullptr);
+                               reading.rope_length_m, refine ? &*refine : nullptr, part.in_all);
+  auto first = judge.of_first(part.traced != nullptr);
   if (!first) return first.error();
   stage.lap(timings.gate_ms);
 
@@ -321,8 +320,8 @@ Result<Ropes> Estimator::estimate_ropes(const Frame& frame) {
     bool closer_left_out = false;
     auto ropes = estimator::estimate_each(
         frame, impl_->config.ropes,
-        [&](const Frame& view, const estimator::Traced* traced, double share) {
-          return impl_->estimate(view, {}, nullptr, budget.part(share), traced);
+        [&](const Frame& view, const estimator::Part& part, double share) {
+          return impl_->estimate(view, {}, nullptr, budget.part(share), part);
         },
         [&](float rope_width_px) {
           // What tells ropes apart is never left out: by the mask alone there are other ropes, and

@@ -10,6 +10,7 @@
 
 #include "geometry/camera.hpp"
 #include "geometry/polyline.hpp"
+#include "geometry/ring.hpp"
 
 namespace flowdlo::estimator {
 namespace {
@@ -110,6 +111,17 @@ bool to_be_turned(const Centerline& nodes, const Hints& hints, const Intrinsics&
          kLevel * distance_in_order(nodes, *hints.previous, false);  // not of a NaN
 }
 
+/// A ring begins nowhere: it does where `previous` did, and runs that way round.
+void begin_as(const Centerline& previous, Estimate& ring) {
+  const auto told = geometry::told_like(ring.nodes, previous);
+  const Estimate before = ring;
+  ring.nodes = told.nodes;
+  for (std::size_t i = 0; i < kNodes; ++i) {
+    ring.support[i] = before.support[told.from[i]];
+    ring.sigma_m[i] = before.sigma_m[told.from[i]];
+  }
+}
+
 }  // namespace
 
 Result<void> check(const Hints& hints, const Frame& frame) {
@@ -159,7 +171,9 @@ std::vector<double> log_priors(const std::vector<gate::Candidate>& candidates, c
   for (const gate::Candidate& candidate : candidates) {
     double log = 0;
     if (before) {
-      log += log_near(geometry::mean_distance(candidate.nodes, *hints.previous) / kStill_m, kMoved);
+      const double moved_m =
+          geometry::mean_distance(candidate.nodes, *hints.previous, candidate.ring > 0);
+      log += log_near(moved_m / kStill_m, kMoved);
     }
     if (!hints.ends.empty()) log += log_of_ends(candidate, hints.ends, camera);
     logs.push_back(log);
@@ -168,6 +182,9 @@ std::vector<double> log_priors(const std::vector<gate::Candidate>& candidates, c
 }
 
 void turn(Estimate& estimate, const Hints& hints, const Intrinsics& camera) {
+  if (estimate.closed && hints.previous && geometry::all_finite(*hints.previous)) {
+    begin_as(*hints.previous, estimate);
+  }
   if (to_be_turned(estimate.nodes, hints, camera)) {
     std::reverse(estimate.nodes.begin(), estimate.nodes.end());
     std::reverse(estimate.support.begin(), estimate.support.end());

@@ -59,7 +59,7 @@ Judge::Chosen Judge::choose(SecondLook look, const Sampled& sampled) const {
     return with_tips(candidate, chosen.look, frame_, *refine_, rope_length_m_, hints_);
   };
   chosen.returned = by_score(chosen.candidates, answer, *fitted_, hints_, conditions_, frame_,
-                             rope_length_m_, chosen.look);
+                             rope_length_m_, in_all_, chosen.look);
   return chosen;
 }
 
@@ -89,7 +89,8 @@ Result<std::optional<Judged>> Judge::of_first(bool traced) const {
   if (fitted_ == nullptr || !(traced || conditions_.axes)) return std::optional<Judged>();
   const auto doubtful = [&](float confidence) { return !traced && confidence < kSure; };
   Chosen chosen = choose(first_look(conditions_, frame_), {});
-  if (doubtful(chosen.returned.confidence)) return std::optional<Judged>();
+  const bool ring = chosen.look.hypotheses[chosen.returned.hypothesis].course.closed;
+  if ((ring && !traced) || doubtful(chosen.returned.confidence)) return std::optional<Judged>();
   auto judged = settle(std::move(chosen), {});
   if (!judged) return judged.error();
   if (doubtful(judged->confidence)) return std::optional<Judged>();

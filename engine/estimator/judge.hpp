@@ -4,7 +4,9 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "estimator/conditions.hpp"
@@ -48,20 +50,22 @@ struct Judged {
 class Judge {
  public:
   /// `fitted`: by the fitted score and the hints; null: as the thesis, Eq. (3.33). `refine`: the
-  /// network that moves nodes; null: none does.
+  /// network that moves nodes; null: none does. `in_all`: as gate::Beside has it.
   Judge(const gate::Fitted* fitted, const Hints& hints, const Conditions& conditions,
-        const Frame& frame, double rope_length_m, refine::Network* refine)
+        const Frame& frame, double rope_length_m, refine::Network* refine,
+        std::function<double(double)> in_all = {})
       : fitted_(fitted),
         hints_(hints),
         conditions_(conditions),
         frame_(frame),
         rope_length_m_(rope_length_m),
-        refine_(refine) {}
+        refine_(refine),
+        in_all_(std::move(in_all)) {}
 
   /// Of the first reading alone; nothing where it says nothing sure. A mask's is never sure: where
-  /// strands are merged it has no doubt. `traced`: its paths were known already; what told ropes
-  /// apart has weighed all of them, and a rope alone is not read again. Fails as the refining
-  /// network does.
+  /// strands are merged it has no doubt. Nor is a ring: a closer look may see two ends that touch.
+  /// `traced`: its paths were known already; what told ropes apart has weighed all of them, and a
+  /// rope alone is not read again. Fails as the refining network does.
   [[nodiscard]] Result<std::optional<Judged>> of_first(bool traced) const;
 
   /// Of all that is known. Fails likewise.
@@ -79,6 +83,7 @@ class Judge {
   const Frame& frame_;
   const double rope_length_m_;
   refine::Network* const refine_;
+  const std::function<double(double)> in_all_;
 };
 
 /// The caller's view of it.

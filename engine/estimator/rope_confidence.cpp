@@ -29,16 +29,22 @@ constexpr double kMostShare = 1 - kLeastShare;  // to here
 
 }  // namespace
 
-double own_log_odds(float confidence) {
-  const double share = std::clamp(static_cast<double>(confidence), kLeastShare, kMostShare);
+double own_log_odds(double confidence) {
+  const double share = std::clamp(confidence, kLeastShare, kMostShare);
   return std::log(share / (1 - share));
 }
 
-float rope_confidence(const ToldApart& told, const Estimate& rope) {
+double rope_probability(const ToldApart& told, bool closed, double own) {
   const Odds& odds = kOdds.at(static_cast<std::size_t>(told.witness));
-  const double own = rope.closed ? odds.of_ring : odds.of_estimate * own_log_odds(rope.confidence);
-  const double logit = odds.at_none + odds.each * static_cast<double>(told.lead) + own;
-  return gate::doubted(static_cast<float>(1 / (1 + std::exp(-logit))), rope.one_rope);
+  const double of_estimate = closed ? odds.of_ring : odds.of_estimate * own_log_odds(own);
+  const double logit = odds.at_none + odds.each * static_cast<double>(told.lead) + of_estimate;
+  return 1 / (1 + std::exp(-logit));
+}
+
+float rope_confidence(const ToldApart& told, const Estimate& rope) {
+  const double own = static_cast<double>(rope.confidence);
+  const double probability = rope_probability(told, rope.closed, own);
+  return gate::doubted(static_cast<float>(probability), rope.one_rope);
 }
 
 }  // namespace flowdlo::estimator

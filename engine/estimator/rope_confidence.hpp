@@ -20,12 +20,16 @@ struct ToldApart {
 };
 
 /// The log odds of an estimate's own confidence, within bounds that a fit can heed.
-[[nodiscard]] double own_log_odds(float confidence);
+[[nodiscard]] double own_log_odds(double confidence);
 
-/// [0, 1] the probability that the rope is one of the frame's, visited in order from end to end,
-/// and less than 1 cm off, Eq. (4.1): by how it was told apart and by the confidence of its
-/// estimate in its own view. That one says nothing of a ring: it was fitted to ropes with two ends.
-/// Doubts of the estimate lower it as they lower that of a single rope.
+/// [0, 1] the probability that a rope, a ring where it is `closed`, is one of the frame's, visited
+/// in order from end to end, and less than 1 cm off, Eq. (4.1): by how it was told apart and by the
+/// probability of its estimate in its own view. That one says nothing of a ring: it was fitted to
+/// ropes with two ends.
+[[nodiscard]] double rope_probability(const ToldApart& told, bool closed, double own);
+
+/// The same of an estimate by its confidence; its doubts lower it as they lower that of a single
+/// rope.
 [[nodiscard]] float rope_confidence(const ToldApart& told, const Estimate& rope);
 
 }  // namespace flowdlo::estimator

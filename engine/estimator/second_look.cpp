@@ -12,7 +12,7 @@
 #include "field/strand_field.hpp"
 #include "gate/one_rope.hpp"
 #include "gate/tube_score.hpp"
-#include "geometry/polyline.hpp"
+#include "geometry/ring.hpp"
 #include "guard/guarded.hpp"
 #include "path/limits.hpp"
 #include "path/strand_reading.hpp"
@@ -60,7 +60,8 @@ Result<path::Traversals> trace_seen(field::Network& network, const Frame& frame,
 }
 
 bool same_place(const Hypothesis& a, const Hypothesis& b, double radius_m) {
-  return geometry::mean_distance(a.prior.nodes, b.prior.nodes) <= kSamePlace * radius_m;
+  const bool rings = a.course.closed && b.course.closed;
+  return geometry::mean_distance(a.prior.nodes, b.prior.nodes, rings) <= kSamePlace * radius_m;
 }
 
 /// The hypotheses of all readings, each place once: as the first reading has it, otherwise as the

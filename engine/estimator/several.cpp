@@ -22,7 +22,7 @@ namespace {
 constexpr float kEndsMet = field::kTipPeak;
 
 Result<void> one_rope(const Frame& frame, const EstimateOne& one, Ropes& result) {
-  auto rope = one(frame, nullptr, 1);
+  auto rope = one(frame, {}, 1);
   if (!rope) return rope.error();
   result.ropes.push_back(*std::move(rope));
   result.instances = one_instance(frame);
@@ -48,8 +48,16 @@ Result<void> several_ropes(const Frame& frame, int ropes, const EstimateOne& one
     const Traced traced = view.traced();
     // A label says which pixels are a rope's: it is read in all ways, as one that is alone. That
     // it is a ring its path alone knows.
-    const bool labelled = !frame.instances.empty() && !parted->paths.ropes[i].closed;
-    auto rope = one(view.frame(), labelled ? nullptr : &traced, 1 / static_cast<double>(count - i));
+    const bool closed = parted->paths.ropes[i].closed;
+    const bool labelled = !frame.instances.empty() && !closed;
+    const ToldApart told{parted->witness[i], parted->paths.lead[i]};
+    Part part{.traced = labelled ? nullptr : &traced};
+    // Where a rope is alone there was nothing to tell apart.
+    const bool one_of_several = count > 1 || closed;
+    if (one_of_several) {
+      part.in_all = [&](double own) { return rope_probability(told, closed, own); };
+    }
+    auto rope = one(view.frame(), part, 1 / static_cast<double>(count - i));
     if (!rope) {
       if (rope.error().code == ErrorCode::kOutOfMemory) return rope.error();
       if (rope.error().code == ErrorCode::kDeviceLost) return rope.error();
@@ -59,11 +67,8 @@ Result<void> several_ropes(const Frame& frame, int ropes, const EstimateOne& one
       }
       continue;
     }
-    rope->closed = parted->paths.ropes[i].closed;
-    // Where a rope is alone there was nothing to tell apart.
-    if (count > 1 || rope->closed) {
-      rope->confidence = rope_confidence({parted->witness[i], parted->paths.lead[i]}, *rope);
-    }
+    rope->closed = closed;
+    if (one_of_several) rope->confidence = rope_confidence(told, *rope);
     result.ropes.push_back(*std::move(rope));
     number[i + 1] = static_cast<std::uint16_t>(result.ropes.size());
   }

@@ -12,9 +12,14 @@
 
 namespace flowdlo::estimator {
 
-/// One rope of a frame; along paths that are known already, or null; within that share, (0, 1], of
-/// the time that is left.
-using EstimateOne = std::function<Result<Estimate>(const Frame&, const Traced*, double share)>;
+/// What telling ropes apart says of one.
+struct Part {
+  const Traced* traced = nullptr;          ///< its way, where no other is looked for; or null
+  std::function<double(double)> in_all{};  ///< as gate::Beside has it
+};
+
+/// One rope of a frame, within that share, (0, 1], of the time that is left.
+using EstimateOne = std::function<Result<Estimate>(const Frame&, const Part&, double share)>;
 
 /// Tells the ropes apart (`part_ropes`, `see` as there) and estimates each by `one`, along the way
 /// that was found; one that a label tells apart by all that `one` finds in its view. One rope

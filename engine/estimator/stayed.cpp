@@ -7,6 +7,7 @@
 #include "geometry/camera.hpp"
 #include "geometry/pixel.hpp"
 #include "geometry/polyline.hpp"
+#include "geometry/ring.hpp"
 #include "path/limits.hpp"
 #include "prior/refined_prior.hpp"
 
@@ -52,7 +53,8 @@ const Hypothesis* same_way(const Centerline& nodes, const std::vector<Hypothesis
   const Hypothesis* nearest = nullptr;
   double least = kSameWay * static_cast<double>(geometry::length(nodes));
   for (const Hypothesis& hypothesis : known) {
-    const double off = geometry::mean_distance(hypothesis.prior.nodes, nodes);
+    const double off =
+        geometry::mean_distance(hypothesis.prior.nodes, nodes, hypothesis.course.closed);
     if (!(off < least)) continue;
     least = off;
     nearest = &hypothesis;
@@ -81,6 +83,8 @@ std::optional<Hypothesis> stayed(const std::optional<Centerline>& previous,
   auto path = projected(*previous, frame);
   if (!path) return std::nullopt;
   const Hypothesis* like = same_way(*previous, known);
+  // Between the nodes of a ring nothing says whether it was one; the hypothesis does.
+  if (like != nullptr && like->course.closed) return std::nullopt;
   if (like != nullptr) {
     path->score = like->score;
     path->ring = like->course.ring;

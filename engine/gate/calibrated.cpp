@@ -91,7 +91,11 @@ Choice choose_calibrated(std::span<const Candidate> frames_own, const GateWeight
   const double logit =
       weights.closeness(closeness_features(candidates, choice.chosen, lead)).front();
   choice.probability = std::isfinite(logit) ? 1 / (1 + std::exp(-logit)) : 0;
-  const NodeFeatures features(candidates, returned, scores, hypothesis, choice.probability);
+  if (beside.in_all) {  // a ring that was told apart has no ends to be a guess
+    for (Candidate& candidate : candidates) candidate.ring = 0;
+  }
+  const double in_all = beside.in_all ? beside.in_all(choice.probability) : choice.probability;
+  const NodeFeatures features(candidates, returned, scores, hypothesis, in_all);
   for (std::size_t node = 0; node < kNodes; ++node) {
     const NodeError error(weights.node_error(features.of(node)));
     choice.sigma_m[node] = static_cast<float>(0.5 * error.quantile_m(weights.sigma_share));

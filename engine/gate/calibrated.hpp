@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <span>
 #include <vector>
@@ -38,13 +39,15 @@ struct Choice {
   bool switched = false;  ///< without what is known beside the frame it would go another way
 };
 
-/// What is known beside the frame. It decides with the scores; the probability and the sigma of the
-/// chosen one are the frame's alone.
+/// What is known beside the frame. It decides with the scores; the probability of the chosen one is
+/// the frame's alone.
 struct Beside {
   std::vector<double> log_prior{};   ///< [candidates] what speaks for each; empty: nothing does
   std::optional<Candidate> guest{};  ///< a hypothesis that the frame did not bring forth, as if it
                                      ///< came after the candidates; they do not count it
   double guest_log_prior = 0;
+  /// What the probability becomes by what else is known, which sigma goes by; null: it stays.
+  std::function<double(double)> in_all{};
 };
 
 /// [hypotheses] index of the candidate that each would return: its draw of highest score where that

@@ -41,7 +41,8 @@ struct Hints {
   /// The nodes of the frame before, Estimate::nodes. The estimate keeps their order, and of ways
   /// that the frame does not tell apart the one near them is taken. One that lies elsewhere by some
   /// rope widths is no evidence, nor is one with a node that is not finite. `first_end` wins over
-  /// the order. With the thesis' gate they keep the order and no more.
+  /// the order. With the thesis' gate they keep the order and no more. A ring begins where it did,
+  /// and runs that way round.
   std::optional<Centerline> previous{};
 };
 

@@ -113,12 +113,14 @@ MaybeFrame pair_of(synth::Part part, std::uint64_t index, bool color) {
   return std::optional(*std::move(first));
 }
 
-/// A ring of a scene of several ropes, the only one in the mask; nothing of a scene without one.
+/// A ring of a scene of several ropes, the only one in the mask; nothing of a scene without one. In
+/// every second one the others are not there at all: where they are, they part it.
 MaybeFrame ring_of(synth::Part part, std::uint64_t index, bool color) {
   const auto scenario = synth::scenario_of(synth::Split::kSeveral, part, /*seed=*/0, index);
   if (!scenario) return scenario.error();
   if (*scenario != "ropes-ring") return std::optional<synth::SyntheticFrame>();
-  auto scene = synth::frame_at(synth::Split::kSeveral, part, index, {.color = color});
+  auto scene = synth::frame_at(synth::Split::kSeveral, part, index,
+                               {.color = color, .ring_alone = index % 2 == 0});
   if (!scene) return scene.error();
   const auto ring = std::find_if(scene->ropes.begin(), scene->ropes.end(),
                                  [](const synth::TrueRope& rope) { return rope.closed; });

@@ -9,7 +9,7 @@
 #include "evidence/mask_field.hpp"
 #include "gate/gate.hpp"
 #include "gate/one_rope.hpp"
-#include "gate_fit/true_ring.hpp"
+#include "geometry/ring.hpp"
 #include "refine/refined.hpp"
 
 namespace flowdlo::lab {
@@ -86,7 +86,7 @@ std::optional<GateSample> measure(const synth::SyntheticFrame& scene, flow::Samp
     sample.refined.push_back(refined->nodes);
   }
   if (scene.ropes.front().closed && !sample.several) {
-    sample.truth = eval::canonical(true_ring(scene.truth(), sample.answer(0)));
+    sample.truth = eval::canonical(geometry::told_like(scene.truth(), sample.answer(0)).nodes);
   }
   for (std::size_t i = 0; i < sample.candidates.size(); ++i) {
     const auto one = gate::one_rope(sample.answer(i), frame, conditions->paths.rope_width_px);

@@ -30,6 +30,7 @@ constexpr int kLeastPixels = 120;        // of rope
 
 // Everything before the first ray.
 struct Stage {
+  bool ring_alone = false;  // as Render has it
   Ropes ropes;
   View view;
   Faults faults;
@@ -75,6 +76,8 @@ bool set_up_wide(std::string_view scenario, Dice& ropes, Dice& views, Stage& sta
 bool set_up_several(std::string_view scenario, Dice& dice, Dice& views, Stage& stage) {
   auto ropes = try_several_ropes(scenario, dice);
   if (!ropes) return false;
+  if (stage.ring_alone) std::erase_if(*ropes, [](const Rope& rope) { return !rope.closed; });
+  if (ropes->empty()) return false;
   const bool near = scenario == "ropes-leaving";
   return set_up_view(*std::move(ropes), near ? try_near_view : try_wide_view, views, stage);
 }
@@ -175,8 +178,10 @@ void describe(const Stage& stage, const Material& material, Meta& meta) {
 // A scene of a key: the ropes, their view and things, and the ideal picture of them.
 class Scene {
  public:
-  Scene(const SceneKey& key, std::string_view scenario)
-      : key_(key), look_(key, Use::kLook), scenario_(scenario) {}
+  Scene(const SceneKey& key, std::string_view scenario, bool ring_alone)
+      : key_(key), look_(key, Use::kLook), scenario_(scenario) {
+    stage_.ring_alone = ring_alone;
+  }
 
   Result<void> set_up();
   [[nodiscard]] Result<SyntheticFrame> taken(const Render& render) const;
@@ -320,7 +325,7 @@ Result<SyntheticFrame> make_frame(Split split, Part part, std::uint64_t seed, st
   if (const auto good = check(split, part, index, render.frame); !good) return good.error();
   const SceneKey key{split, part, seed, index};
   if (split == Split::kDrawn) return drawn(key, render);
-  Scene scene(key, scenario_of(key));
+  Scene scene(key, scenario_of(key), render.ring_alone);
   if (const auto ready = scene.set_up(); !ready) return ready.error();
   return scene.taken(render);
 }

@@ -154,9 +154,10 @@ struct Render {
   bool color = true;  ///< false: color_bgr stays empty, for training records; all else is the same
   int frame = 0;      ///< of this static scene; others differ in sensor noise and light alone.
                       ///< 0 plays the role of the thesis' representative frame 50, Sec. 4.1.1
-  bool matched = false;  ///< a stereo camera's depth by matching two infrared pictures, as such
-                         ///< cameras do (stereo_pair.hpp), not by a model of their noise
-  bool dense = false;    ///< fill SyntheticFrame::dense
+  bool matched = false;     ///< a stereo camera's depth by matching two infrared pictures, as such
+                            ///< cameras do (stereo_pair.hpp), not by a model of their noise
+  bool dense = false;       ///< fill SyntheticFrame::dense
+  bool ring_alone = false;  ///< of a scene of several ropes ("ropes-ring") its ring, and no other
   /// The only parts that get colours, of a frame that has all but these; the rest stays black.
   /// Colours take most of a frame's time. Empty: everything.
   std::function<std::vector<Window>(const SyntheticFrame&)> windows = {};

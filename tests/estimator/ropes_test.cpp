@@ -539,6 +539,21 @@ TEST(EstimateRopes, ALabelledRopeIsReadAsOneThatIsAlone) {
   }
 }
 
+TEST(EstimateRopes, SigmaGoesByTheConfidenceThatIsReturned) {
+  const auto scene = make_ropes(RopesKind::kCrossing, 3, 2);
+  Frame frame = scene.frame();
+  frame.instances = scene.image.instances;
+  auto by_field = make_with_field(0);
+  const Ropes found = estimate(by_field, frame);
+  ASSERT_EQ(found.ropes.size(), 3U);
+  for (const Estimate& rope : found.ropes) {
+    EXPECT_GT(rope.confidence, 0.9F);
+    auto sigma_m = rope.sigma_m;
+    std::sort(sigma_m.begin(), sigma_m.end());
+    EXPECT_LT(sigma_m[kNodes / 2], 0.006F);
+  }
+}
+
 TEST(EstimateRopes, TheStrandFieldPartsARingFromARope) {
   auto by_field = make_with_field(0);
   for (const std::uint64_t seed : {0, 1, 2}) {

@@ -275,6 +275,22 @@ TEST(CalibratedGate, AGuestIsTakenByItsScoreAndWhatSpeaksForIt) {
   EXPECT_EQ(choose_calibrated(candidates, by_recall(), beside).chosen, 0U);
 }
 
+TEST(CalibratedGate, SigmaGoesByTheProbabilityThatIsKnownInAll) {
+  Candidate poor = with_recall(straight(0), 0.6F);
+  poor.buried_ends = 0.5F;
+  const std::vector candidates{poor};
+  const Choice alone = choose_calibrated(candidates, shipped_for_field());
+  const auto said = [&](double probability) {
+    return choose_calibrated(candidates, shipped_for_field(),
+                             {.in_all = [=](double) { return probability; }});
+  };
+  const Choice sure = said(0.99);
+  const Choice doubtful = said(0.05);
+  EXPECT_EQ(sure.probability, alone.probability);
+  EXPECT_EQ(said(alone.probability).sigma_m, alone.sigma_m);
+  for (std::size_t i = 0; i < kNodes; ++i) EXPECT_LT(sure.sigma_m[i], doubtful.sigma_m[i]);
+}
+
 TEST(CalibratedGate, WithoutAStrandFieldNothingOfItIsWeighed) {
   constexpr std::size_t kOfField = 14;  // features of a hypothesis
   const std::vector candidates{straight(0), straight(0.05F, 1)};

@@ -96,6 +96,23 @@ FlatRope straight(double radius_m, double turn) {
   return rope;
 }
 
+TEST(SeveralRopes, ARingAloneLiesThereWithoutTheOthers) {
+  int rings = 0;
+  for (std::uint64_t index = 0; index < 12; ++index) {
+    const auto scenario = scenario_of(Split::kSeveral, Part::kTraining, 7, index);
+    ASSERT_TRUE(scenario);
+    if (*scenario != "ropes-ring") continue;
+    ++rings;
+    const auto frame = several(index, {.color = false, .ring_alone = true});
+    ASSERT_EQ(frame.ropes.size(), 1U);
+    EXPECT_TRUE(frame.ropes.front().closed);
+    EXPECT_EQ(frame.meta.ropes, 1);
+    const auto& labels = frame.folder.instances;
+    EXPECT_EQ(*std::max_element(labels.begin(), labels.end()), 1);
+  }
+  EXPECT_GE(rings, 1);
+}
+
 TEST(LaidTogether, TheLaterRopeLiesOnTheEarlierOneWhateverTheirWidths) {
   Dice dice({Split::kSeveral, Part::kTraining, 1, 0}, Use::kRope);
   for (const double radius_m : {0.002, 0.004, 0.007}) {
