@@ -114,12 +114,14 @@ bool to_be_turned(const Centerline& nodes, const Hints& hints, const Intrinsics&
 /// A ring begins nowhere: it does where `previous` did, and runs that way round.
 void begin_as(const Centerline& previous, Estimate& ring) {
   const auto told = geometry::told_like(ring.nodes, previous);
-  const Estimate before = ring;
+  const auto support = ring.support;
+  const auto sigma_m = ring.sigma_m;
   ring.nodes = told.nodes;
   for (std::size_t i = 0; i < kNodes; ++i) {
-    ring.support[i] = before.support[told.from[i]];
-    ring.sigma_m[i] = before.sigma_m[told.from[i]];
+    ring.support[i] = support[told.from[i]];
+    ring.sigma_m[i] = sigma_m[told.from[i]];
   }
+  ring.reversed = told.reversed;
 }
 
 }  // namespace

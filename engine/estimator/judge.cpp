@@ -87,10 +87,10 @@ Result<Judged> Judge::settle(Chosen chosen, const Sampled& sampled) const {
 
 Result<std::optional<Judged>> Judge::of_first(bool traced) const {
   if (fitted_ == nullptr || !(traced || conditions_.axes)) return std::optional<Judged>();
-  const auto doubtful = [&](float confidence) { return !traced && confidence < kSure; };
   Chosen chosen = choose(first_look(conditions_, frame_), {});
   const bool ring = chosen.look.hypotheses[chosen.returned.hypothesis].course.closed;
-  if ((ring && !traced) || doubtful(chosen.returned.confidence)) return std::optional<Judged>();
+  const auto doubtful = [&](float confidence) { return !traced && (ring || confidence < kSure); };
+  if (doubtful(chosen.returned.confidence)) return std::optional<Judged>();
   auto judged = settle(std::move(chosen), {});
   if (!judged) return judged.error();
   if (doubtful(judged->confidence)) return std::optional<Judged>();

@@ -4,7 +4,6 @@
 
 #include <array>
 #include <cstdint>
-#include <functional>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -17,6 +16,7 @@
 #include "flowdlo/estimate.hpp"
 #include "flowdlo/frame.hpp"
 #include "flowdlo/hints.hpp"
+#include "gate/calibrated.hpp"
 #include "gate/fitted.hpp"
 #include "gate/gate.hpp"
 #include "refine/network.hpp"
@@ -50,10 +50,9 @@ struct Judged {
 class Judge {
  public:
   /// `fitted`: by the fitted score and the hints; null: as the thesis, Eq. (3.33). `refine`: the
-  /// network that moves nodes; null: none does. `in_all`: as gate::Beside has it.
+  /// network that moves nodes; null: none does.
   Judge(const gate::Fitted* fitted, const Hints& hints, const Conditions& conditions,
-        const Frame& frame, double rope_length_m, refine::Network* refine,
-        std::function<double(double)> in_all = {})
+        const Frame& frame, double rope_length_m, refine::Network* refine, gate::InAll in_all = {})
       : fitted_(fitted),
         hints_(hints),
         conditions_(conditions),
@@ -83,7 +82,7 @@ class Judge {
   const Frame& frame_;
   const double rope_length_m_;
   refine::Network* const refine_;
-  const std::function<double(double)> in_all_;
+  const gate::InAll in_all_;
 };
 
 /// The caller's view of it.

@@ -54,8 +54,8 @@ Returned by_thesis(const std::vector<Hypothesis>& hypotheses,
 
 Returned by_score(const std::vector<gate::Candidate>& candidates, const Answer& answer,
                   const gate::Fitted& fitted, const Hints& hints, const Conditions& conditions,
-                  const Frame& frame, double rope_length_m,
-                  const std::function<double(double)>& in_all, SecondLook& look) {
+                  const Frame& frame, double rope_length_m, const gate::InAll& in_all,
+                  SecondLook& look) {
   gate::Beside beside{.log_prior = hints.previous ? log_priors(as_returned(candidates, answer),
                                                                hints, frame.intrinsics)
                                                   : log_priors(candidates, hints, frame.intrinsics),

@@ -12,6 +12,7 @@
 #include "flowdlo/estimate.hpp"
 #include "flowdlo/frame.hpp"
 #include "flowdlo/hints.hpp"
+#include "gate/calibrated.hpp"
 #include "gate/candidate.hpp"
 #include "gate/fitted.hpp"
 #include "gate/gate.hpp"
@@ -38,12 +39,11 @@ struct Returned {
 using Answer = std::function<Centerline(const gate::Candidate&)>;
 
 /// What the fitted score and the hints prefer among the candidates, `list_candidates`. Where that
-/// is the rope as it was in the frame before, it joins the hypotheses of `look`. `in_all`: as
-/// gate::Beside has it.
+/// is the rope as it was in the frame before, it joins the hypotheses of `look`.
 [[nodiscard]] Returned by_score(const std::vector<gate::Candidate>& candidates,
                                 const Answer& answer, const gate::Fitted& fitted,
                                 const Hints& hints, const Conditions& conditions,
-                                const Frame& frame, double rope_length_m,
-                                const std::function<double(double)>& in_all, SecondLook& look);
+                                const Frame& frame, double rope_length_m, const gate::InAll& in_all,
+                                SecondLook& look);
 
 }  // namespace flowdlo::estimator

@@ -8,14 +8,15 @@
 #include "flowdlo/estimate.hpp"
 #include "flowdlo/frame.hpp"
 #include "flowdlo/result.hpp"
+#include "gate/calibrated.hpp"
 #include "path/path.hpp"
 
 namespace flowdlo::estimator {
 
 /// What telling ropes apart says of one.
 struct Part {
-  const Traced* traced = nullptr;          ///< its way, where no other is looked for; or null
-  std::function<double(double)> in_all{};  ///< as gate::Beside has it
+  const Traced* traced = nullptr;  ///< its way, where no other is looked for; or null
+  gate::InAll in_all{};
 };
 
 /// One rope of a frame, within that share, (0, 1], of the time that is left.

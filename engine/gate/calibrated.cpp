@@ -91,7 +91,7 @@ Choice choose_calibrated(std::span<const Candidate> frames_own, const GateWeight
   const double logit =
       weights.closeness(closeness_features(candidates, choice.chosen, lead)).front();
   choice.probability = std::isfinite(logit) ? 1 / (1 + std::exp(-logit)) : 0;
-  if (beside.in_all) {  // a ring that was told apart has no ends to be a guess
+  if (beside.in_all) {
     for (Candidate& candidate : candidates) candidate.ring = 0;
   }
   const double in_all = beside.in_all ? beside.in_all(choice.probability) : choice.probability;

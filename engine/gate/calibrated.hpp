@@ -39,6 +39,11 @@ struct Choice {
   bool switched = false;  ///< without what is known beside the frame it would go another way
 };
 
+/// What the probability becomes by what is known beside the frame; sigma goes by that. Null: it
+/// stays. Of a rope that has one, a ring has no ends that could be a guess: that it is one was
+/// told.
+using InAll = std::function<double(double)>;
+
 /// What is known beside the frame. It decides with the scores; the probability of the chosen one is
 /// the frame's alone.
 struct Beside {
@@ -46,8 +51,7 @@ struct Beside {
   std::optional<Candidate> guest{};  ///< a hypothesis that the frame did not bring forth, as if it
                                      ///< came after the candidates; they do not count it
   double guest_log_prior = 0;
-  /// What the probability becomes by what else is known, which sigma goes by; null: it stays.
-  std::function<double(double)> in_all{};
+  InAll in_all{};
 };
 
 /// [hypotheses] index of the candidate that each would return: its draw of highest score where that

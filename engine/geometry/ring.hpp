@@ -11,7 +11,9 @@ namespace flowdlo::geometry {
 
 struct ToldRing {
   Centerline nodes{};                      ///< evenly spaced, once round: the last is the first
-  std::array<std::size_t, kNodes> from{};  ///< the node of the ring that each lies nearest to
+  std::array<std::size_t, kNodes> from{};  ///< the node that each was nearest to along the ring,
+                                           ///< where those were evenly spaced as well
+  bool reversed = false;                   ///< it is told the other way round
 };
 
 /// The ring from that place on and that way round from which its nodes are nearest to those of the

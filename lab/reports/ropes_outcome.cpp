@@ -5,7 +5,6 @@
 #include <chrono>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 #include <numeric>
 #include <tuple>
 #include <utility>
@@ -20,6 +19,7 @@
 #include "field/strand_field.hpp"
 #include "gate/calibrated.hpp"
 #include "geometry/polyline.hpp"
+#include "geometry/ring.hpp"
 #include "scene/setting.hpp"
 
 namespace flowdlo::lab {
@@ -198,30 +198,10 @@ bool visits(const std::vector<Vector2d>& line, Marks marks, bool closed) {
   return visits_in_order(line, marks);
 }
 
-Centerline ring_nodes(const Curve3& curve, double from) {
-  double length = 0;
-  for (std::size_t i = 1; i < curve.size(); ++i) length += (curve[i] - curve[i - 1]).norm();
-  Curve3 turned = respaced(curve, length / 1024);
-  turned.pop_back();
-  const auto first = static_cast<std::ptrdiff_t>(from * static_cast<double>(turned.size()));
-  std::rotate(turned.begin(), turned.begin() + first, turned.end());
-  turned.push_back(turned.front());
-  return nodes_of(turned);
-}
-
 // Eq. (4.1) in the better direction; of a ring from the best beginning.
 double index_m(const Estimate& found, const SeenRope& rope) {
-  if (!rope.closed) return eval::score(found.nodes, rope.truth).either_index_m;
-  Curve3 line;
-  for (const Point3& p : found.nodes) line.push_back(vector_of(p));
-  line.push_back(line.front());
-  const Centerline nodes = ring_nodes(line, 0);
-  double least = std::numeric_limits<double>::max();
-  for (int k = 0; k < 256; ++k) {
-    const Centerline truth = ring_nodes(rope.curve, k / 256.0);
-    least = std::min(least, eval::score(nodes, truth).either_index_m);
-  }
-  return least;
+  if (rope.closed) return geometry::mean_distance(rope.truth, found.nodes, true);
+  return eval::score(found.nodes, rope.truth).either_index_m;
 }
 
 // Where two true ropes cross in the image, and which is nearer there.

@@ -61,6 +61,7 @@ TEST_F(Ring, BeginsWhereItDidInTheFrameBefore) {
     const Estimate found = estimate({.previous = before});
     EXPECT_TRUE(found.closed);
     EXPECT_NE(found.origin, Origin::kFrameBefore);
+    EXPECT_TRUE(found.reversed);
     for (std::size_t i = 0; i < kNodes; ++i) {
       EXPECT_LT(geometry::distance(found.nodes[i], before[i]), 0.003) << by << ", node " << i;
     }

@@ -3,27 +3,17 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cmath>
-#include <memory>
-#include <optional>
-#include <set>
+#include <cstdint>
 #include <stdexcept>
+#include <vector>
 
 #include "estimator/parted.hpp"
-#include "estimator/rope_crossings.hpp"
-#include "estimator/rope_readings.hpp"
 #include "estimator/rope_views.hpp"
-#include "estimator/second_look.hpp"
-#include "estimator/see_axes.hpp"
-#include "field/network.hpp"
 #include "flowdlo/estimator.hpp"
 #include "geometry/polyline.hpp"
-#include "path/strand_reading.hpp"
-#include "reference/program.hpp"
 #include "scene/ropes.hpp"
 #include "scene/scene.hpp"
 #include "support/wave_frame.hpp"
-#include "weights/field_weights.hpp"
 
 namespace flowdlo {
 namespace {
@@ -56,6 +46,12 @@ void hide(std::uint16_t label, lab::RopesScene& scene) {
   for (std::size_t p = 0; p < scene.image.depth_m.size(); ++p) {
     if (scene.image.instances[p] == label) scene.image.depth_m[p] = 0;
   }
+}
+
+Frame labelled(const lab::RopesScene& scene) {
+  Frame frame = scene.frame();
+  frame.instances = scene.image.instances;
+  return frame;
 }
 
 TEST(EstimateRopes, EveryRopeIsFoundLongestFirst) {
@@ -288,244 +284,9 @@ TEST(EstimateRopes, AnEstimatorThatWasMovedFromSaysSo) {
   EXPECT_THAT(answer.error().message, HasSubstr("moved from"));
 }
 
-TEST(RopeViews, AnUpperRopesPixelsAreThereInTheLowerOnesViewWithoutDepth) {
-  const auto scene = make_ropes(RopesKind::kHanging, 2, 0);
-  const auto parted = estimator::part_ropes(scene.frame(), 2);
-  ASSERT_TRUE(parted) << parted.error().message;
-  std::size_t shared = 0;
-  for (std::size_t rope = 0; rope < 2; ++rope) {
-    const estimator::RopeView view(*parted, rope, scene.frame());
-    const Frame frame = view.frame();
-    for (std::size_t p = 0; p < frame.mask.size(); ++p) {
-      const bool own = parted->instances[p] == rope + 1;
-      if (own) {
-        ASSERT_GT(frame.mask[p], 127);
-        ASSERT_EQ(frame.depth_m[p], scene.image.depth_m[p]);
-      } else if (frame.mask[p] > 127) {
-        ++shared;
-        ASSERT_EQ(frame.depth_m[p], 0);
-      }
-    }
-  }
-  EXPECT_GT(shared, 10U);
-}
-
-TEST(RopeCrossings, LinesThatCrossBackWithinTwoWidthsDoNotCross) {
-  std::vector<Estimate> ropes(2);
-  for (std::size_t i = 0; i < kNodes; ++i) {
-    const float x = -0.2F + 0.4F * static_cast<float>(i) / (kNodes - 1);
-    ropes[0].nodes[i] = {x, 0, 0.5F};
-    const bool other_side = i == 31;  // one node strays over the other rope
-    ropes[1].nodes[i] = {x, other_side ? -0.001F : 0.004F, 0.51F};
-  }
-  std::vector<std::uint8_t> mask(640 * 480, 0);
-  std::fill_n(mask.begin(), 6400, std::uint8_t{255});
-  const Frame frame{640, 480, {600, 600, 320, 240}, {}, mask, {}};
-  EXPECT_TRUE(estimator::rope_crossings(ropes, frame).empty());
-  for (std::size_t i = 32; i < kNodes; ++i) ropes[1].nodes[i].y = -0.004F;
-  const auto crossings = estimator::rope_crossings(ropes, frame);
-  ASSERT_EQ(crossings.size(), 1U);
-  EXPECT_EQ(crossings[0].over, 0);
-  EXPECT_EQ(crossings[0].under, 1);
-  EXPECT_NEAR(crossings[0].over_at_m, 0.2F, 0.02F);
-}
-
-TEST(RopeCrossings, OfARingAreThoseThatShow) {
-  std::vector<Estimate> ropes(2);
-  ropes[0].closed = true;
-  for (std::size_t i = 0; i < kNodes; ++i) {
-    const float turn = 6.2831853F * static_cast<float>(i) / kNodes;
-    ropes[0].nodes[i] = {0.1F * std::cos(turn), 0.1F * std::sin(turn), 0.5F};
-    const float along = -0.2F + 0.4F * static_cast<float>(i) / (kNodes - 1);
-    ropes[1].nodes[i] = {along, along / 90, 0.45F};  // once through the gap of the last node
-  }
-  std::vector<std::uint8_t> mask(640 * 480, 0);
-  std::fill_n(mask.begin(), 6400, std::uint8_t{255});
-  const Frame frame{640, 480, {600, 600, 320, 240}, {}, mask, {}};
-  const auto crossings = estimator::rope_crossings(ropes, frame);
-  ASSERT_EQ(crossings.size(), 2U);
-  for (const RopeCrossing& crossing : crossings) EXPECT_EQ(crossing.over, 1);
-}
-
-// A path along a straight line.
-path::Path line(const Eigen::Vector2f& from, const Eigen::Vector2f& to) {
-  path::Path path;
-  for (int i = 0; i <= 100; ++i) {
-    path.points_px.emplace_back(from + (to - from) * static_cast<float>(i) / 100);
-  }
-  path.bridged.assign(path.points_px.size(), 0);
-  return path;
-}
-
-TEST(RopeReadings, OneRopeIsTheSameInEitherDirectionAndNoneThatEndsElsewhere) {
-  const path::Path rope = line({10, 10}, {200, 40});
-  EXPECT_TRUE(estimator::same_rope(rope, line({12, 14}, {198, 37}), 8));
-  EXPECT_TRUE(estimator::same_rope(rope, line({200, 40}, {10, 10}), 8));
-  EXPECT_FALSE(estimator::same_rope(rope, line({10, 10}, {150, 32}), 8));
-  EXPECT_FALSE(estimator::same_rope(rope, line({10, 30}, {200, 60}), 8));
-  path::Path ring = line({10, 10}, {200, 40});
-  ring.closed = true;
-  EXPECT_FALSE(estimator::same_rope(rope, ring, 8));
-  path::Path turned = ring;
-  std::rotate(turned.points_px.begin(), turned.points_px.begin() + 30, turned.points_px.end());
-  EXPECT_TRUE(estimator::same_rope(ring, turned, 8));
-}
-
-TEST(RopeReadings, WithoutAFieldTheMasksRopesHaveNoWitness) {
-  const auto scene = make_ropes(RopesKind::kCrossing, 2, 0);
-  const auto blind = [](float) { return std::optional<field::Axes>(); };
-  for (const estimator::SeeAxes& see : {estimator::SeeAxes(), estimator::SeeAxes(blind)}) {
-    const auto read = estimator::read_ropes(scene.frame(), 0, see);
-    ASSERT_TRUE(read) << read.error().message;
-    ASSERT_EQ(read->paths.ropes.size(), 2U);
-    EXPECT_THAT(read->witness, ::testing::Each(estimator::Witness::kNone));
-  }
-}
-
-/// The axes of what the mask's reading has.
-field::Axes axes_of(const path::RopePaths& ropes) {
-  field::Axes axes;
-  axes.width_px = ropes.rope_width_px;
-  axes.magnified_for_px = axes.width_px;
-  for (const path::Path& rope : ropes.ropes) axes.lines.push_back({rope.points_px, {1, 1}});
-  return axes;
-}
-
-TEST(RopeReadings, TheAxesRopesAreTakenAndTheMasksSayWhichTheyKnow) {
-  const auto scene = make_ropes(RopesKind::kCrossing, 2, 0);
-  const auto masked = path::trace_ropes(scene.frame(), 0);
-  ASSERT_TRUE(masked) << masked.error().message;
-  field::Axes axes = axes_of(*masked);  // of one of the two ropes whole, of the other one a half
-  auto& half = axes.lines.back().points_px;
-  half.resize(half.size() / 2);
-  std::vector<float> asked_px;
-  const auto read = estimator::read_ropes(scene.frame(), 0, [&](float width_px) {
-    asked_px.push_back(width_px);
-    return std::optional(axes);
-  });
-  ASSERT_TRUE(read) << read.error().message;
-  ASSERT_EQ(asked_px.size(), 2U) << "what the mask does not know is looked at more closely";
-  EXPECT_EQ(asked_px[0], masked->rope_width_px);
-  EXPECT_FLOAT_EQ(asked_px[1], estimator::kCloser * axes.width_px);
-  EXPECT_THAT(read->witness, ::testing::UnorderedElementsAre(estimator::Witness::kAgrees,
-                                                             estimator::Witness::kDiffers));
-}
-
-TEST(RopeReadings, RopesThatAreToldApartSurelyAreLookedAtOnce) {
-  const auto scene = make_ropes(RopesKind::kCrossing, 2, 0);
-  const auto masked = path::trace_ropes(scene.frame(), 0);
-  ASSERT_TRUE(masked) << masked.error().message;
-  int asked = 0;
-  const auto read = estimator::read_ropes(scene.frame(), 0, [&](float) {
-    ++asked;
-    return std::optional(axes_of(*masked));
-  });
-  ASSERT_TRUE(read) << read.error().message;
-  EXPECT_EQ(asked, 1);
-  EXPECT_THAT(read->witness, ::testing::Each(estimator::Witness::kAgrees));
-}
-
-/// Where there is no time for it, or it fails.
-TEST(RopeReadings, WithoutACloserLookTheFirstOneStands) {
-  const auto scene = make_ropes(RopesKind::kCrossing, 2, 0);
-  const auto masked = path::trace_ropes(scene.frame(), 0);
-  ASSERT_TRUE(masked) << masked.error().message;
-  field::Axes axes = axes_of(*masked);
-  auto& half = axes.lines.back().points_px;
-  half.resize(half.size() / 2);
-  int asked = 0;
-  const auto once = [&](float) {
-    return asked++ == 0 ? std::optional(axes) : std::optional<field::Axes>();
-  };
-  const auto read = estimator::read_ropes(scene.frame(), 0, once);
-  ASSERT_TRUE(read) << read.error().message;
-  EXPECT_EQ(asked, 2);
-  const auto first = path::trace_ropes(scene.frame(), axes, 0, masked->guesses);
-  ASSERT_TRUE(first);
-  ASSERT_EQ(read->paths.ropes.size(), first->ropes.size());
-  for (std::size_t i = 0; i < first->ropes.size(); ++i) {
-    EXPECT_EQ(read->paths.ropes[i].points_px, first->ropes[i].points_px);
-  }
-}
-
-TEST(RopeReadings, WhereTheFieldCannotLookCloserItIsAskedOnce) {
-  const auto scene = make_ropes(RopesKind::kCrossing, 2, 0);
-  const auto masked = path::trace_ropes(scene.frame(), 0);
-  ASSERT_TRUE(masked) << masked.error().message;
-  auto axes = axes_of(*masked);
-  axes.lines.pop_back();  // the other rope is in doubt
-  axes.magnified_for_px = estimator::kCloser * axes.width_px;
-  int asked = 0;
-  const auto read = estimator::read_ropes(scene.frame(), 0, [&](float) {
-    ++asked;
-    return std::optional(axes);
-  });
-  ASSERT_TRUE(read) << read.error().message;
-  EXPECT_EQ(asked, 1);
-}
-
-TEST(RopeReadings, WhereTheAxesMakeNoRopesTheMasksAreInDoubt) {
-  const auto scene = make_ropes(RopesKind::kCrossing, 2, 0);
-  const auto read = estimator::read_ropes(scene.frame(), 0, [](float) {
-    return std::optional(field::Axes{{}, 8});
-  });
-  ASSERT_TRUE(read) << read.error().message;
-  ASSERT_EQ(read->paths.ropes.size(), 2U);
-  EXPECT_THAT(read->witness, ::testing::Each(estimator::Witness::kDiffers));
-}
-
-TEST(RopeReadings, OfNoiseTheFieldIsNotAsked) {
-  const auto scene = make_ropes(RopesKind::kCrossing, 2, 0);
-  Frame frame = scene.frame();
-  std::vector<std::uint8_t> mask(frame.mask.size(), 0);
-  std::uint32_t state = 1;
-  for (std::uint8_t& at : mask) {
-    state = 1664525U * state + 1013904223U;
-    at = (state >> 24U) < 77U ? 255 : 0;  // three pixels in ten
-  }
-  frame.mask = mask;
-  int asked = 0;
-  const auto read = estimator::read_ropes(frame, 0, [&](float) {
-    ++asked;
-    return std::optional<field::Axes>();
-  });
-  EXPECT_EQ(asked, 0);
-  if (!read) return;  // nor need it be ropes
-  EXPECT_TRUE(read->paths.filtered);
-  const auto parted = estimator::part_ropes(frame, 0, {});
-  ASSERT_TRUE(parted) << parted.error().message;
-  EXPECT_TRUE(estimator::RopeView(*parted, 0, frame).traced().paths.filtered);
-}
-
-TEST(RopeViews, TakeAlongWhatTheFieldShows) {
-  auto weights = weights::load_field(FLOWDLO_FIELD_WEIGHTS);
-  ASSERT_TRUE(weights) << weights.error().message;
-  auto network =
-      field::Network::create(std::make_shared<const weights::FieldWeights>(*std::move(weights)),
-                             [] { return reference::create_program(1); });
-  ASSERT_TRUE(network);
-  const auto scene = make_ropes(RopesKind::kCrossing, 2, 0);
-  const Frame frame = scene.frame();
-  const auto parted = estimator::part_ropes(frame, 0, estimator::seen_by(&*network, frame));
-  ASSERT_TRUE(parted) << parted.error().message;
-  ASSERT_EQ(parted->paths.ropes.size(), 2U);
-  for (std::size_t rope = 0; rope < 2; ++rope) {
-    const auto traced = estimator::RopeView(*parted, rope, frame).traced();
-    ASSERT_TRUE(traced.seen);
-    const auto& points = traced.paths.ranked.front().points_px;
-    const std::size_t place = points.size() / 10;
-    const Eigen::Vector2f along = (points[place + 2] - points[place]).normalized();
-    EXPECT_GT(traced.seen->shown(points[place + 1], along).any(), 0.4F);
-  }
-  const auto masked = estimator::part_ropes(frame, 0);
-  ASSERT_TRUE(masked);
-  EXPECT_FALSE(estimator::RopeView(*masked, 0, frame).traced().seen) << "none was asked";
-}
-
 TEST(EstimateRopes, ALabelledRopeIsReadAsOneThatIsAlone) {
   const auto scene = make_ropes(RopesKind::kCrossing, 2, 1);
-  Frame frame = scene.frame();
-  frame.instances = scene.image.instances;
+  const Frame frame = labelled(scene);
   auto by_field = make_with_field(0);
   const Ropes found = estimate(by_field, frame);
   ASSERT_EQ(found.ropes.size(), 2U);
@@ -541,8 +302,7 @@ TEST(EstimateRopes, ALabelledRopeIsReadAsOneThatIsAlone) {
 
 TEST(EstimateRopes, SigmaGoesByTheConfidenceThatIsReturned) {
   const auto scene = make_ropes(RopesKind::kCrossing, 3, 2);
-  Frame frame = scene.frame();
-  frame.instances = scene.image.instances;
+  const Frame frame = labelled(scene);
   auto by_field = make_with_field(0);
   const Ropes found = estimate(by_field, frame);
   ASSERT_EQ(found.ropes.size(), 3U);

@@ -9,6 +9,7 @@
 
 #include "flowdlo/centerline.hpp"
 #include "flowdlo/frame.hpp"
+#include "support/disc.hpp"
 
 namespace flowdlo::testing {
 
@@ -55,21 +56,15 @@ struct RingFrame {
   }
 
   void draw(float u, float v) {
-    for (int y = -kHalfWidth_px; y <= kHalfWidth_px; ++y) {
-      for (int x = -kHalfWidth_px; x <= kHalfWidth_px; ++x) {
-        const auto off = static_cast<float>(x * x + y * y) / (kHalfWidth_px * kHalfWidth_px);
-        if (off > 1) continue;
-        const auto pixel = static_cast<std::size_t>(std::lround(v) + y) * kWidth +
-                           static_cast<std::size_t>(std::lround(u) + x);
-        const float height_m = kRadius_m * std::sqrt(1 - off);
-        mask[pixel] = 255;
-        if (kAxis_m - height_m > depth_m[pixel]) continue;
-        depth_m[pixel] = kAxis_m - height_m;
-        color_bgr[3 * pixel] = 30;
-        color_bgr[3 * pixel + 1] = 60;
-        color_bgr[3 * pixel + 2] = static_cast<std::uint8_t>(120 + 100 * (1 - off));
-      }
-    }
+    paint_disc(u, v, kHalfWidth_px, kWidth, [&](std::size_t pixel, float off) {
+      const float height_m = kRadius_m * std::sqrt(1 - off);
+      mask[pixel] = 255;
+      if (kAxis_m - height_m > depth_m[pixel]) return;
+      depth_m[pixel] = kAxis_m - height_m;
+      color_bgr[3 * pixel] = 30;
+      color_bgr[3 * pixel + 1] = 60;
+      color_bgr[3 * pixel + 2] = static_cast<std::uint8_t>(120 + 100 * (1 - off));
+    });
   }
 };
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "flowdlo/frame.hpp"
+#include "support/disc.hpp"
 
 namespace flowdlo::testing {
 
@@ -45,15 +46,10 @@ struct RoseFrame {
 
  private:
   void draw(float u, float v) {
-    for (int y = -kHalfWidth_px; y <= kHalfWidth_px; ++y) {
-      for (int x = -kHalfWidth_px; x <= kHalfWidth_px; ++x) {
-        if (x * x + y * y > kHalfWidth_px * kHalfWidth_px) continue;
-        const auto column = static_cast<std::size_t>(std::lround(u) + x);
-        const auto row = static_cast<std::size_t>(std::lround(v) + y);
-        mask[row * kWidth + column] = 255;
-        depth_m[row * kWidth + column] = kRope_m;
-      }
-    }
+    paint_disc(u, v, kHalfWidth_px, kWidth, [&](std::size_t pixel, float) {
+      mask[pixel] = 255;
+      depth_m[pixel] = kRope_m;
+    });
   }
 };
 
