@@ -52,7 +52,11 @@ BackEnd on_device(const Config& config, const std::shared_ptr<vulkan::Device>& d
                                        .pipeline_cache = cache_folder(std::getenv)};
   return {.name = report.name,
           .make_program = [device, options] { return vulkan::create_program(device, options); },
-          .gpu = is_real_gpu(report)};
+          .gpu = is_real_gpu(report),
+          .settled =
+              [device, folder = options.pipeline_cache](auto kind, const auto& find_out) {
+                return vulkan::settled(*device, folder, kind, find_out);
+              }};
 }
 
 Result<BackEnd> open_vulkan(const Config& config, const std::string& wanted) {

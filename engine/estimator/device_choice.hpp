@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <string>
+#include <string_view>
 
 #include "flow/sampler.hpp"
 #include "flowdlo/config.hpp"
@@ -22,11 +23,17 @@ using Fetch = std::function<Result<Frame>(const VulkanFrame&)>;
 inline constexpr const char* kAuto = "auto";  ///< Config::device, where it is left to us
 inline constexpr const char* kCpu = "cpu";    ///< the native back end's name
 
+/// The answer to a question about a device that can only be measured: asked once, so that all
+/// estimators on the device go by the same (vulkan::settled).
+using Settled = std::function<Result<bool>(std::string_view kind,
+                                           const std::function<Result<bool>()>& find_out)>;
+
 struct BackEnd {
   std::string name;  ///< kCpu, or the Vulkan device's name
   flow::ProgramFactory make_program;
-  Fetch fetch{};     ///< of a device that the host handed over; of others empty
-  bool gpu = false;  ///< a real one, no CPU driver
+  Fetch fetch{};      ///< of a device that the host handed over; of others empty
+  bool gpu = false;   ///< a real one, no CPU driver
+  Settled settled{};  ///< of the native back end empty
 };
 
 [[nodiscard]] BackEnd cpu_back_end(int threads);

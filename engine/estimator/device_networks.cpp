@@ -1,9 +1,14 @@
 #include "estimator/device_networks.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cstdint>
+#include <string>
 
 #include "estimator/field_trial.hpp"
 #include "estimator/opening.hpp"
+#include "files/checksum.hpp"
 
 namespace flowdlo::estimator {
 namespace {
@@ -26,6 +31,18 @@ Result<PlacedField> field_on_cpu(const Wanted& wanted) {
   return PlacedField{*std::move(network), cpu.name};
 }
 
+/// By which it is remembered where this network runs: its speed is that of any of its size, but
+/// not whether its values are right.
+std::string name_of(const weights::FieldWeights& field) {
+  std::uint64_t sum = files::checksum({});
+  for (const weights::Tensor& tensor : field.tensors) {
+    sum = files::checksum({reinterpret_cast<const char*>(tensor.values.data()),
+                           tensor.values.size() * sizeof(tensor.values.front())},
+                          sum);
+  }
+  return fmt::format("field-{:010x}", sum >> 24U);
+}
+
 /// As Config::field_device has it.
 Result<PlacedField> placed_field(const Wanted& wanted, const BackEnd& back_end) {
   const Config& config = wanted.config;
@@ -37,11 +54,15 @@ Result<PlacedField> placed_field(const Wanted& wanted, const BackEnd& back_end) 
   if (!network) return network.error();
   PlacedField there{*std::move(network), back_end.name};
   if (tried) {
-    auto here = field_on_cpu(wanted);
-    if (!here) return here.error();
-    const auto trial = try_field(there.network, here->network);
-    if (!trial) return trial.error();
-    if (!trial->agrees() || !trial->device_is_faster()) return here;
+    const auto gets_it = back_end.settled(name_of(*wanted.field), [&]() -> Result<bool> {
+      auto here = field_on_cpu(wanted);
+      if (!here) return here.error();
+      const auto trial = try_field(there.network, here->network);
+      if (!trial) return trial.error();
+      return trial->agrees() && !trial->cpu_is_faster();
+    });
+    if (!gets_it) return gets_it.error();
+    if (!*gets_it) return field_on_cpu(wanted);
   }
   if (config.device == kAuto) {
     there.network.fall_back_on(cpu_back_end(config.threads).make_program);

@@ -14,7 +14,8 @@ struct FieldTrial {
 
   /// Within what kernels differ by, a hundred times over.
   [[nodiscard]] bool agrees() const { return difference < 1e-3F; }
-  [[nodiscard]] bool device_is_faster() const { return device_ms < cpu_ms; }
+  /// Clearly: about as fast is the device's case, which leaves the CPU to the host.
+  [[nodiscard]] bool cpu_is_faster() const { return cpu_ms < 0.7 * device_ms; }
 };
 
 /// Both networks have the same weights. Fails as the device's network does, and as the CPU's.

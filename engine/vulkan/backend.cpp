@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "vulkan/absence.hpp"
+#include "vulkan/findings.hpp"
 #include "vulkan/open_drivers.hpp"
 #include "vulkan/program.hpp"
 
@@ -136,6 +137,17 @@ bool validation_active(const Device& device) { return device.instance().validate
 std::string gemm_name(Device& device) {
   const std::lock_guard lock(device.tuning_mutex());
   return device.gemm() ? name_of(*device.gemm()) : std::string{};
+}
+
+Result<bool> settled(const Device& device, const std::filesystem::path& folder,
+                     std::string_view kind, const std::function<Result<bool>()>& find_out) {
+  std::vector<char> answer = known(device, folder, kind);
+  if (answer.size() != 1) {
+    const auto found = find_out();
+    if (!found) return found.error();
+    answer = settle(device, folder, kind, {static_cast<char>(*found ? 1 : 0)});
+  }
+  return answer.front() != 0;
 }
 
 std::uint64_t submit_count(const Device& device) { return device.submit_count(); }

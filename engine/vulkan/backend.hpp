@@ -9,6 +9,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "flowdlo/devices.hpp"
@@ -64,6 +65,12 @@ struct Survey {
 [[nodiscard]] bool validation_active(const Device& device);
 /// How dense layers run on this device, "tile 32 x 32 x 16"; empty before its first program.
 [[nodiscard]] std::string gemm_name(Device& device);
+/// The answer to a question about this device that can only be measured: `find_out` is asked once,
+/// and its answer kept in this process and, unless it is empty, in `folder` (findings). `kind`: the
+/// question's name, at most 16 characters. Fails as `find_out` does, and asks again then.
+[[nodiscard]] Result<bool> settled(const Device& device, const std::filesystem::path& folder,
+                                   std::string_view kind,
+                                   const std::function<Result<bool>()>& find_out);
 /// Calls of vkQueueSubmit on this device so far, whoever made them.
 [[nodiscard]] std::uint64_t submit_count(const Device& device);
 

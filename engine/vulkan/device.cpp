@@ -9,6 +9,7 @@
 
 #include "threads/team.hpp"
 #include "vulkan/cooperative_matrix.hpp"
+#include "vulkan/kept_drivers.hpp"
 
 namespace flowdlo::vulkan {
 namespace {
@@ -225,6 +226,9 @@ Result<std::shared_ptr<Device>> Device::open(std::unique_ptr<Instance> instance,
   std::shared_ptr<Device> device(new Device(std::move(instance), physical));
   const auto created = device->create_device();
   if (!created) return created.error();
+  if (physical.report.kind != DeviceKind::kCpu) {
+    keep_driver(physical.driver_uuid, device->instance_);
+  }
   const auto completed = device->complete(0);
   if (!completed) return completed.error();
   return device;

@@ -48,6 +48,7 @@ struct Meeting {
 /// Safe to share between threads.
 class Device {
  public:
+  /// The driver of a GPU is kept, see keep_driver().
   [[nodiscard]] static Result<std::shared_ptr<Device>> open(std::unique_ptr<Instance> instance,
                                                             const PhysicalDevice& physical);
 
@@ -123,7 +124,7 @@ class Device {
   [[nodiscard]] Error failed(VkResult result, VkObjectType type, std::string_view name) const;
   void name_object(VkObjectType type, std::uint64_t object, const std::string& name) const;
 
-  std::unique_ptr<Instance> instance_;
+  std::shared_ptr<const Instance> instance_;
   PhysicalDevice facts_;
   std::optional<Lent> lent_;
   VkDevice handle_ = VK_NULL_HANDLE;

@@ -14,6 +14,13 @@ namespace {
 constexpr const char* kValidationLayer = "VK_LAYER_KHRONOS_validation";
 constexpr std::string_view kNoDeviceYet = "instance";
 
+/// Held while an instance comes or goes, and drivers with it: NVIDIA's may crash where several
+/// threads do that at once. Never destroyed: a device may outlive what the process ends with.
+std::mutex& coming_and_going() {
+  static auto* const mutex = new std::mutex();
+  return *mutex;
+}
+
 /// The version of Vulkan that the validation layer was made for.
 std::optional<std::uint32_t> validation_layer(const Loader& loader) {
   const auto enumerate = reinterpret_cast<PFN_vkEnumerateInstanceLayerProperties>(
@@ -95,19 +102,23 @@ Instance::~Instance() {
     api_.vkDestroyDebugUtilsMessengerEXT(handle_, messenger_, nullptr);
   }
   if (owned_ && handle_ != VK_NULL_HANDLE && api_.vkDestroyInstance != nullptr) {
+    const std::lock_guard lock(coming_and_going());
     api_.vkDestroyInstance(handle_, nullptr);
   }
 }
 
 Result<std::unique_ptr<Instance>> Instance::create(std::shared_ptr<const Loader> loader,
                                                    bool validation) {
-  const auto layer = validation ? validation_layer(*loader) : std::nullopt;
+  std::unique_ptr<Instance> instance(new Instance(std::move(loader)));
+  const std::lock_guard lock(coming_and_going());
+  const Loader& from = instance->loader();
+  const auto layer = validation ? validation_layer(from) : std::nullopt;
   const bool layered = layer.has_value();
   std::vector<const char*> extensions;
   if (layered) {
     extensions = {VK_EXT_DEBUG_UTILS_EXTENSION_NAME, VK_EXT_VALIDATION_FEATURES_EXTENSION_NAME};
   }
-  const bool portable = hides_portable_devices(*loader);
+  const bool portable = hides_portable_devices(from);
   if (portable) extensions.push_back(VK_KHR_PORTABILITY_ENUMERATION_EXTENSION_NAME);
   const VkValidationFeatureEnableEXT synchronization =
       VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT;
@@ -136,12 +147,11 @@ Result<std::unique_ptr<Instance>> Instance::create(std::shared_ptr<const Loader>
       .enabledExtensionCount = static_cast<std::uint32_t>(extensions.size()),
       .ppEnabledExtensionNames = extensions.data()};
   const auto create =
-      reinterpret_cast<PFN_vkCreateInstance>(loader->find(VK_NULL_HANDLE, "vkCreateInstance"));
+      reinterpret_cast<PFN_vkCreateInstance>(from.find(VK_NULL_HANDLE, "vkCreateInstance"));
   if (create == nullptr) {
     return Error{ErrorCode::kNoDevice,
                  "Vulkan loader: expected vkCreateInstance, found none; update libvulkan1"};
   }
-  std::unique_ptr<Instance> instance(new Instance(std::move(loader)));
   const VkResult result = create(&info, nullptr, &instance->handle_);
   if (result == VK_ERROR_INCOMPATIBLE_DRIVER) return no_driver();
   const auto created = check(result, "vkCreateInstance", kNoDeviceYet);

@@ -7,6 +7,7 @@
 #include <cstring>
 #include <string>
 
+#include "files/checksum.hpp"
 #include "files/regular_file.hpp"
 #include "files/staged_files.hpp"
 #include "flowdlo/version.hpp"
@@ -31,14 +32,6 @@ static_assert(sizeof(Header) == 128);
 
 constexpr std::array<char, 8> kMagic = {'F', 'D', 'L', 'O', 'S', 'F', '0', '2'};
 
-std::uint64_t checksum_of(const std::vector<char>& content) {
-  std::uint64_t hash = 14695981039346656037ULL;
-  for (const char byte : content) {
-    hash = (hash ^ static_cast<unsigned char>(byte)) * 1099511628211ULL;
-  }
-  return hash;
-}
-
 template <std::size_t kSize>
 std::array<char, kSize> padded(std::string_view text) {
   std::array<char, kSize> result{};
@@ -55,22 +48,21 @@ Header header_for(const Device& device, std::string_view kind, const std::vector
                        FLOWDLO_VERSION_PATCH},
           .shaders = shaders::hash(),
           .size = content.size(),
-          .checksum = checksum_of(content)};
-}
-
-std::filesystem::path file_for(const Device& device, const std::filesystem::path& folder,
-                               std::string_view kind) {
-  // A CPU driver may have other lanes in the next process: what was found out of eight says nothing
-  // of sixteen.
-  return folder / fmt::format("{}-{:08x}-{}.{}", device.facts().report.uuid,
-                              device.facts().driver_version, device.facts().lanes, kind);
+          .checksum = files::checksum({content.data(), content.size()})};
 }
 
 }  // namespace
 
+std::string stored_name(const Device& device, std::string_view kind) {
+  // A CPU driver may have other lanes in the next process: what was found out of eight says nothing
+  // of sixteen.
+  return fmt::format("{}-{:08x}-{}.{}", device.facts().report.uuid, device.facts().driver_version,
+                     device.facts().lanes, kind);
+}
+
 std::vector<char> read_stored(const Device& device, const std::filesystem::path& folder,
                               std::string_view kind) {
-  const auto bytes = files::read_file(file_for(device, folder, kind), kLargestFile);
+  const auto bytes = files::read_file(folder / stored_name(device, kind), kLargestFile);
   if (!bytes || bytes->size < sizeof(Header)) return {};
   const std::string_view text = bytes->text().substr(sizeof(Header));
   std::vector<char> content(text.begin(), text.end());
@@ -90,7 +82,7 @@ void write_stored(const Device& device, const std::filesystem::path& folder, std
   bytes.append(content.data(), content.size());
   // Its checksum tells a file that a power cut has torn: there is no need to wait for the disk.
   files::StagedFiles staged(Durability::kUnsynced);
-  if (staged.add(file_for(device, folder, kind), bytes)) (void)staged.commit();
+  if (staged.add(folder / stored_name(device, kind), bytes)) (void)staged.commit();
 }
 
 }  // namespace flowdlo::vulkan

@@ -2,12 +2,16 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <string_view>
 #include <vector>
 
 #include "vulkan/device.hpp"
 
 namespace flowdlo::vulkan {
+
+/// Of the file that holds this, in whatever folder.
+[[nodiscard]] std::string stored_name(const Device& device, std::string_view kind);
 
 /// The content that was stored for this device under `kind` ("pipelines", "gemm"). Empty where
 /// there is none, where the file is damaged, or where it was stored by another driver, driver

@@ -10,9 +10,9 @@
 #include <string>
 #include <type_traits>
 
+#include "vulkan/findings.hpp"
 #include "vulkan/gemm_candidates.hpp"
 #include "vulkan/gemm_trial.hpp"
-#include "vulkan/stored_file.hpp"
 
 namespace flowdlo::vulkan {
 namespace {
@@ -28,10 +28,9 @@ constexpr double kCpuBudget_ms = 2000;
 // A later candidate must be clearly faster: noise must not change a device's bits from run to run.
 constexpr double kClearly = 0.9;
 
-/// The stored choice, where it is still one of the candidates.
-std::optional<GemmChoice> stored_choice(const Device& device, const std::filesystem::path& folder,
-                                        const std::vector<GemmChoice>& candidates) {
-  const std::vector<char> content = read_stored(device, folder, kKind);
+/// What `content` says, where it is still one of the candidates.
+std::optional<GemmChoice> choice_of(const std::vector<char>& content,
+                                    const std::vector<GemmChoice>& candidates) {
   GemmChoice choice;
   if (content.size() != sizeof(choice)) return std::nullopt;
   std::memcpy(&choice, content.data(), sizeof(choice));
@@ -39,18 +38,19 @@ std::optional<GemmChoice> stored_choice(const Device& device, const std::filesys
   return known ? std::optional(choice) : std::nullopt;
 }
 
-void store_choice(const Device& device, const std::filesystem::path& folder,
-                  const GemmChoice& choice) {
+std::vector<char> content_of(const GemmChoice& choice) {
   static_assert(std::has_unique_object_representations_v<GemmChoice>);
   std::vector<char> content(sizeof(choice));
   std::memcpy(content.data(), &choice, sizeof(choice));
-  write_stored(device, folder, kKind, content);
+  return content;
 }
+
+bool is_cpu_driver(const Device& device) { return device.facts().report.kind == DeviceKind::kCpu; }
 
 Result<GemmChoice> best_of(const std::shared_ptr<Device>& device,
                            const std::vector<GemmChoice>& candidates,
                            const ProgramOptions& options) {
-  const bool is_cpu = device->facts().report.kind == DeviceKind::kCpu;
+  const bool is_cpu = is_cpu_driver(*device);
   const bool keeps = !options.pipeline_cache.empty();
   auto start = Clock::now();
   std::optional<GemmChoice> best;
@@ -91,16 +91,19 @@ Result<GemmChoice> choose_gemm(const std::shared_ptr<Device>& device,
   const std::lock_guard lock(device->tuning_mutex());
   if (device->gemm()) return *device->gemm();
   const std::vector<GemmChoice> candidates = gemm_candidates(device->facts());
-  const bool keeps = !options.pipeline_cache.empty();
-  auto stored = keeps ? stored_choice(*device, options.pipeline_cache, candidates) : std::nullopt;
-  if (!stored) {
+  const std::filesystem::path& folder = options.pipeline_cache;
+  // A CPU driver that has no folder gets its first candidate, always.
+  const bool is_kept = !folder.empty() || !is_cpu_driver(*device);
+  auto choice = is_kept ? choice_of(known(*device, folder, kKind), candidates) : std::nullopt;
+  if (!choice) {
     const auto best = best_of(device, candidates, options);
     if (!best) return best.error();
-    stored = *best;
-    if (keeps) store_choice(*device, options.pipeline_cache, *best);
+    // Under validation layers there are fewer candidates: what is kept may be none of them.
+    if (is_kept) choice = choice_of(settle(*device, folder, kKind, content_of(*best)), candidates);
+    if (!choice) choice = *best;
   }
-  device->remember(*stored);
-  return *stored;
+  device->remember(*choice);
+  return *choice;
 }
 
 }  // namespace flowdlo::vulkan

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <system_error>
 
+#include "files/checksum.hpp"
 #include "files/regular_file.hpp"
 #include "files/staged_files.hpp"
 
@@ -29,17 +30,8 @@ Own& own() {
   return *memory;
 }
 
-/// FNV-1a.
-std::uint64_t hash_of(std::string_view text) {
-  std::uint64_t hash = 14695981039346656037ULL;
-  for (const char byte : text) {
-    hash = (hash ^ static_cast<unsigned char>(byte)) * 1099511628211ULL;
-  }
-  return hash;
-}
-
 std::filesystem::path file_for(const DriverKey& key, const std::filesystem::path& folder) {
-  return folder / fmt::format("driver-{:016x}.verdict", hash_of(key.text));
+  return folder / fmt::format("driver-{:016x}.verdict", files::checksum(key.text));
 }
 
 /// What a file begins with that is about this key.

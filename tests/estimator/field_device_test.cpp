@@ -78,11 +78,12 @@ TEST(FieldDevice, AModelThatWasLeftForLaterGivesTheSameTensors) {
   const lab::Scene scene = lab::make_scene(lab::Kind::kTouching, 1000);
   Config config = on("cpu", FieldDevice::kCpu);
   auto later = Estimator::create(config);
+  ASSERT_TRUE(later) << later.error().message;
   config.euler_steps = later->euler_steps();
   config.draws = later->draws();
   config.quality = Quality::kFull;
   auto at_once = Estimator::create(config);
-  ASSERT_TRUE(later && at_once);
+  ASSERT_TRUE(at_once) << at_once.error().message;
   ASSERT_TRUE(later->estimate(scene.frame()));
   Tensors a;
   Tensors b;

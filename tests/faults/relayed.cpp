@@ -6,6 +6,8 @@
 #include <filesystem>
 
 #include "vulkan/driver_manifests.hpp"
+#include "vulkan/findings.hpp"
+#include "vulkan/kept_drivers.hpp"
 
 namespace flowdlo::testing {
 namespace {
@@ -36,6 +38,7 @@ const RelayTable* relay() {
 void Relayed::SetUp() {
   if (relay() == nullptr) GTEST_SKIP() << "lavapipe is not installed (mesa-vulkan-drivers)";
   drivers_.emplace(FLOWDLO_RELAY);
+  vulkan::forget_findings();
   relay()->reset();
   relay()->pose_as_gpu(false);
   relay()->hide(false);
@@ -48,6 +51,8 @@ void Relayed::TearDown() {
   relay()->pose_as_gpu(false);
   relay()->hide(false);
   relay()->limit({});
+  vulkan::forget_findings();
+  vulkan::forget_drivers();
   EXPECT_EQ(relay()->alive(), 0) << "objects of Vulkan are left";
 }
 

@@ -12,6 +12,7 @@
 #include "flowdlo/estimator.hpp"
 #include "support/wave_frame.hpp"
 #include "vulkan/every_op.hpp"
+#include "vulkan/findings.hpp"
 #include "vulkan/vulkan_api.hpp"
 
 namespace flowdlo::testing {
@@ -92,6 +93,7 @@ TEST_F(SmallDevices, RunEveryOperationWithinTheirLimits) {
     for (const auto& [like, limits, gemms] : small_devices()) {
       SCOPED_TRACE(std::string(like) + (as_gpu ? ", as a GPU" : ", as a CPU driver"));
       relay()->limit(limits);
+      vulkan::forget_findings();
       const auto device =
           vulkan::open_device({.wanted = "vulkan", .validation = true, .probing = {.on = false}});
       ASSERT_TRUE(device) << device.error().message;

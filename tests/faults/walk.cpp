@@ -12,6 +12,8 @@
 
 #include "faults/relayed.hpp"
 #include "vulkan/check.hpp"
+#include "vulkan/findings.hpp"
+#include "vulkan/kept_drivers.hpp"
 
 namespace flowdlo::testing {
 namespace {
@@ -83,8 +85,13 @@ std::set<long> numbers(long calls, Thoroughly how, bool below_instance) {
 
 }  // namespace
 
-void walk(const Action& action, Thoroughly how, bool may_differ,
-          const std::set<std::string>& only) {
+void walk(const Action& once, Thoroughly how, bool may_differ, const std::set<std::string>& only) {
+  const auto action = [&](bool layers) {  // as in a process of its own
+    vulkan::forget_findings();
+    auto outcome = once(layers);
+    vulkan::forget_drivers();
+    return outcome;
+  };
   std::map<std::string, long> calls;
   std::string expected;
   for (const bool layers : {false, true}) {

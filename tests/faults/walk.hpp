@@ -18,11 +18,12 @@ using Action = std::function<Result<std::string>(bool layers)>;
 /// otherwise the first, one in the middle and the last.
 enum class Thoroughly { kSamples, kFirstAlone };
 
-/// Fails each function that gives a VkResult, with every result that the specification lets it
-/// have. What comes is an Error that is no defect of ours, or the bits that come without a failure
-/// (`may_differ`: or others); nothing is left alive; and when a function is through, the next time
-/// nothing fails and the bits are right. Where `only` names functions, the others do not fail.
-void walk(const Action& action, Thoroughly how, bool may_differ = false,
+/// Does `once` again and again, each time as in a new process, and fails each function that gives a
+/// VkResult, with every result that the specification lets it have. What comes is an Error that is
+/// no defect of ours, or the bits that come without a failure (`may_differ`: or others); nothing is
+/// left alive; and when a function is through, the next time nothing fails and the bits are right.
+/// Where `only` names functions, the others do not fail.
+void walk(const Action& once, Thoroughly how, bool may_differ = false,
           const std::set<std::string>& only = {});
 
 }  // namespace flowdlo::testing

@@ -4,6 +4,7 @@
 #include <fstream>
 
 #include "vulkan/device.hpp"
+#include "vulkan/findings.hpp"
 #include "vulkan/gemm_candidates.hpp"
 #include "vulkan/trial.hpp"
 #include "vulkan/tuning.hpp"
@@ -33,8 +34,9 @@ class Tuning : public ::testing::Test {
     return *device;
   }
 
-  /// Chooses on a fresh device, and counts the results that were looked at.
+  /// Chooses on a fresh device as a new process would, and counts the results that were looked at.
   Result<GemmChoice> choose(const std::function<bool(const GemmChoice&)>& broken = {}) {
+    forget_findings();
     ProgramOptions options{.timeout_ms = 60000, .pipeline_cache = folder_};
     options.disturb = [&](const GemmChoice& choice, std::span<float> values) {
       ++looked_at_;
@@ -78,6 +80,18 @@ TEST_F(Tuning, IsRememberedByTheDeviceWithoutAFolder) {
   EXPECT_EQ(*second, *first);
   EXPECT_EQ(submit_count(*device), submits);
   EXPECT_EQ(gemm_name(*device), name_of(*first));
+}
+
+TEST_F(Tuning, IsRememberedByTheProcessWhereItsFolderIsGone) {
+  FLOWDLO_NEEDS_DEVICE();
+  const auto first = choose();
+  ASSERT_TRUE(first);
+  fs::remove_all(folder_);
+  const auto device = fresh_device();
+  const auto second = choose_gemm(device, {.timeout_ms = 60000, .pipeline_cache = folder_});
+  ASSERT_TRUE(second);
+  EXPECT_EQ(*second, *first);
+  EXPECT_EQ(submit_count(*device), 0U) << "nothing is tried again";
 }
 
 TEST_F(Tuning, StepsDownFromAFamilyThatReturnsWrongNumbers) {
