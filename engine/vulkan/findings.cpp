@@ -4,6 +4,7 @@
 #include <mutex>
 #include <string>
 
+#include "vulkan/device.hpp"
 #include "vulkan/stored_file.hpp"
 
 namespace flowdlo::vulkan {

@@ -7,9 +7,9 @@
 #include <string_view>
 #include <vector>
 
-#include "vulkan/device.hpp"
-
 namespace flowdlo::vulkan {
+
+class Device;
 
 /// What is known of this device under `kind`, at most 16 characters; empty where nothing is.
 /// `folder` empty: nothing is kept between processes.

@@ -5,6 +5,8 @@
 #include <map>
 #include <mutex>
 
+#include "vulkan/instance.hpp"
+
 namespace flowdlo::vulkan {
 namespace {
 

@@ -9,9 +9,9 @@
 #include <memory>
 #include <string>
 
-#include "vulkan/instance.hpp"
-
 namespace flowdlo::vulkan {
+
+class Instance;
 
 /// Keeps `instance` alive, and so what it has loaded, unless one of this driver is kept already.
 /// `driver`: its UUID.
