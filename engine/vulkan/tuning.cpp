@@ -10,6 +10,7 @@
 #include <string>
 #include <type_traits>
 
+#include "vulkan/device.hpp"
 #include "vulkan/findings.hpp"
 #include "vulkan/gemm_candidates.hpp"
 #include "vulkan/gemm_trial.hpp"
