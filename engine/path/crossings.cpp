@@ -16,8 +16,6 @@ constexpr float kKnotWidths = 1.0F;    // junctions this near are one crossing
 constexpr float kBridgeWidths = 8.0F;  // longest stretch that two strands share
 constexpr float kDoubleWidths = 1.2F;  // a longer one is wider than this
 constexpr float kStemCosine = -0.35F;  // a fork's branches leave its stem forwards
-constexpr float kShortWidths = 2.5F;   // a stem up to this length
-constexpr float kShortCosine = 0.2F;   // may have them leave sideways
 constexpr float kStemReachWidths = 1.5F;
 
 // The direction in which the branch with this end leaves its node.
@@ -33,12 +31,12 @@ Vector2f leaving(const Graph& graph, int end, float reach_px) {
 
 // True when the other branches at this end's node all leave opposite to the segment: two strands
 // run into one.
-bool stem(const Graph& graph, int end, float reach_px, float most_cosine) {
+bool stem(const Graph& graph, int end, float reach_px) {
   const Node& node = graph.nodes[graph.segments[end / 2].node[end % 2]];
   if (node.ends.size() != 3) return false;
   const Vector2f along = leaving(graph, end, reach_px);
   for (const int other : node.ends) {
-    if (other != end && leaving(graph, other, reach_px).dot(along) > most_cosine) return false;
+    if (other != end && leaving(graph, other, reach_px).dot(along) > kStemCosine) return false;
   }
   return true;
 }
@@ -61,10 +59,7 @@ bool shared(const Graph& graph, int id, const image::Image<float>& distance, flo
   if (graph.nodes[segment.node[1]].ends.size() < 3) return false;
   if (segment.length_px <= kKnotWidths * scale_px) return true;
   const float reach = kStemReachWidths * scale_px;
-  const float cosine = segment.length_px <= kShortWidths * scale_px ? kShortCosine : kStemCosine;
-  if (!stem(graph, 2 * id, reach, cosine) || !stem(graph, 2 * id + 1, reach, cosine)) {
-    return false;
-  }
+  if (!stem(graph, 2 * id, reach) || !stem(graph, 2 * id + 1, reach)) return false;
   return segment.length_px <= kBridgeWidths * scale_px ||
          width_of(segment, distance) >= kDoubleWidths * graph.width_px;
 }

@@ -329,8 +329,6 @@ Graph make_graph(const image::Mask& thinned, const Region& region) {
   for (int i = 0; i < static_cast<int>(graph.nodes.size()); ++i) dissolve(graph, i);
   prune(graph, region.distance_px, region.width_px);
   graph.width_px = usual_width(graph, region.distance_px, region.width_px);
-  if (graph.width_px < 0.8F * region.width_px) return graph;
-  prune(graph, region.distance_px, graph.width_px);
   return graph;
 }
 
