@@ -2,6 +2,8 @@
 # OWN_FLAGS: its compiler's flags are such that it reads its headers itself.
 # Includes are written from engine/: #include "path/path.hpp".
 
+set(CMAKE_UNITY_BUILD OFF)  # FlowdloUnity.cmake knows which files go together
+
 set(FLOWDLO_WARNINGS -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion
                      -Wnon-virtual-dtor -Wold-style-cast)
 if(FLOWDLO_WERROR)
@@ -10,7 +12,14 @@ endif()
 
 add_library(flowdlo_options INTERFACE)
 target_compile_features(flowdlo_options INTERFACE cxx_std_20)
-target_compile_options(flowdlo_options INTERFACE ${FLOWDLO_WARNINGS})
+if(PROJECT_IS_TOP_LEVEL)
+  target_compile_options(flowdlo_options INTERFACE ${FLOWDLO_WARNINGS})
+else()
+  # What an embedding project sets for all its code must neither stop ours nor change its answers:
+  # warnings that are errors to it, arithmetic without NaN.
+  target_compile_options(flowdlo_options INTERFACE $<$<CXX_COMPILER_ID:GNU,Clang,AppleClang>:-w>
+                         $<$<CXX_COMPILER_ID:GNU,Clang,AppleClang>:-fno-fast-math>)
+endif()
 if(FLOWDLO_UNITY AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   # A compiler of several files at a time frees its memory once a GiB, not once some MiB: a tenth of its
   # time. And a helper may be named as one of a file before it: whoever compiles files alone is warned.
