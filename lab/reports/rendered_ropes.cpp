@@ -63,7 +63,7 @@ Result<std::optional<RenderedRopes>> rendered_ropes(synth::Split split, synth::P
   if (!frame) return frame.error();
   RenderedRopes result;
   result.scenario = frame->meta.scenario;
-  const auto strands = strand::strands_of(*frame);
+  const auto strands = strand::whole_strands_of(*frame);
   for (std::size_t k = 0; k < strands.size(); ++k) {
     auto seen = seen_rope(strands[k], frame->ropes[k], frame->folder);
     if (!seen) return std::optional<RenderedRopes>();

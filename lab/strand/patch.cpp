@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
+#include <utility>
 
 #include "synth/drawn_frame.hpp"
 
@@ -326,10 +327,18 @@ synth::SyntheticFrame drawn_training_frame(std::uint64_t seed, std::uint64_t ind
                                   true);
 }
 
-std::vector<Strand> strands_of(const synth::SyntheticFrame& frame) {
+std::vector<Strand> whole_strands_of(const synth::SyntheticFrame& frame) {
   std::vector<Strand> strands;
   for (std::size_t k = 0; k < frame.dense->curves.size(); ++k) {
-    strands.push_back(without_held(strand_of(frame, k), frame.folder));
+    strands.push_back(strand_of(frame, k));
+  }
+  return strands;
+}
+
+std::vector<Strand> strands_of(const synth::SyntheticFrame& frame) {
+  std::vector<Strand> strands;
+  for (Strand& strand : whole_strands_of(frame)) {
+    strands.push_back(without_held(std::move(strand), frame.folder));
   }
   return strands;
 }

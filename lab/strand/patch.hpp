@@ -72,7 +72,11 @@ struct PatchConfig {
 [[nodiscard]] std::vector<Patch> drawn_patches_of(std::uint64_t seed, std::uint64_t index,
                                                   const PatchConfig& config = {});
 
-/// The strands of a whole frame in its own pixels, for measures on frames.
+/// The strands of a whole frame in its own pixels, as a field is to see them: a held end, one that
+/// is hidden for a few widths by what holds the rope, is where it is seen last.
 [[nodiscard]] std::vector<Strand> strands_of(const synth::SyntheticFrame& frame);
+
+/// The same from tip to tip, held ends too.
+[[nodiscard]] std::vector<Strand> whole_strands_of(const synth::SyntheticFrame& frame);
 
 }  // namespace flowdlo::strand
