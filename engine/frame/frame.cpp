@@ -8,6 +8,7 @@
 
 #include "frame/faults.hpp"
 #include "frame/limits.hpp"
+#include "geometry/depth.hpp"
 #include "guard/guarded.hpp"
 
 namespace flowdlo {
@@ -58,6 +59,27 @@ void check_count(const char* name, std::size_t count, const Frame& frame, int ch
       fmt::format("Frame.{}: expected {} values ({}), got {}", name, expected, shape, count));
 }
 
+/// Refused is what can only be another unit: the rope, where most of its depths are that far.
+void check_unit(const Frame& frame, Faults& faults) {
+  std::size_t measured = 0;
+  std::size_t far = 0;
+  double sum_m = 0;
+  for (std::size_t p = 0; p < frame.mask.size(); ++p) {
+    const float depth_m = frame.depth_m[p];
+    if (frame.mask[p] <= 127 || !(depth_m > geometry::kLeastDepth_m)) continue;
+    if (!std::isfinite(depth_m)) continue;
+    ++measured;
+    if (depth_m <= frame::kMostRope_m) continue;
+    ++far;
+    sum_m += static_cast<double>(depth_m);
+  }
+  if (2 * far <= measured) return;
+  faults.bad_input(fmt::format(
+      "Frame.depth_m: expected metres, below {} where the mask is set, got {:.4g} on average; "
+      "multiply millimetres by 0.001, in camera.json set depth_scale to the metres of a unit",
+      frame::kMostRope_m, sum_m / static_cast<double>(far)));
+}
+
 Result<void> checked(const Frame& frame) {
   Faults faults;
   check_size(frame, faults);
@@ -73,6 +95,7 @@ Result<void> checked(const Frame& frame) {
   if (!frame.instances.empty()) {
     check_count("instances", frame.instances.size(), frame, 1, faults);
   }
+  if (faults.empty()) check_unit(frame, faults);
   if (!faults.empty()) return faults.error();
   return {};
 }

@@ -31,7 +31,8 @@ struct Frame {
   std::span<const std::uint16_t> instances{};
 };
 
-/// Succeeds when sizes fit and the intrinsics are usable; otherwise kBadInput with every fault.
+/// Succeeds when sizes fit, the intrinsics are usable, and depths are metres: not most of those on
+/// the mask above 100. Otherwise kBadInput with every fault.
 [[nodiscard]] FLOWDLO_EXPORT Result<void> validate(const Frame& frame);
 
 }  // namespace flowdlo

@@ -99,6 +99,28 @@ TEST(Frame, PrincipalPointMustBeFinite) {
   EXPECT_THAT(fault, HasSubstr("Frame.intrinsics.cy"));
 }
 
+TEST(Frame, MillimetresThatAreTakenForMetresAreRefused) {
+  Pixels pixels;
+  pixels.depth_m.assign(12, 582);
+  pixels.depth_m.front() = std::numeric_limits<float>::infinity();
+  EXPECT_THAT(
+      fault_of(pixels.frame()),
+      AllOf(HasSubstr("Frame.depth_m: expected metres, below 100 where the mask is set, got 582"),
+            HasSubstr("multiply millimetres by 0.001")));
+}
+
+TEST(Frame, FarThingsBesideTheRopeAndFewFarDepthsOnItAreNoOtherUnit) {
+  Pixels pixels;
+  pixels.depth_m.assign(12, 400);
+  for (std::size_t p = 0; p < 6; ++p) pixels.depth_m[p] = 0.5F;
+  EXPECT_EQ(fault_of(pixels.frame()), "");
+  pixels.depth_m[5] = 400;
+  EXPECT_NE(fault_of(pixels.frame()), "");
+  pixels.mask.assign(12, 0);
+  for (std::size_t p = 0; p < 5; ++p) pixels.mask[p] = 255;
+  EXPECT_EQ(fault_of(pixels.frame()), "");
+}
+
 TEST(Frame, EveryFaultIsListed) {
   Pixels pixels;
   pixels.mask.resize(1);
