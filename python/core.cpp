@@ -100,6 +100,7 @@ Hints hints_of(const py::dict& given) {
     }
   }
   if (given.contains("rope_length_m")) hints.rope_length_m = given["rope_length_m"].cast<double>();
+  if (given.contains("closed")) hints.closed = given["closed"].cast<bool>();
   if (given.contains("previous")) {
     hints.previous = centerline_of(given["previous"].cast<Floats>());
   }

@@ -307,7 +307,7 @@ void add_estimate_command(CLI::App& app, support::ExitCode& exit_code) {
       ->check(CLI::Range(0.1, 240.0))
       ->needs("--video")
       ->type_name("N");
-  for (const char* of_one : {"--first-end", "--end", "--previous", "--curve"}) {
+  for (const char* of_one : {"--first-end", "--end", "--ring", "--previous", "--curve"}) {
     command->get_option(of_one)->excludes(ropes);
   }
   command

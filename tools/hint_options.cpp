@@ -19,6 +19,10 @@ void add_hint_options(CLI::App& command, HintArguments& arguments) {
       ->allow_extra_args(false)
       ->type_name("U,V");
   command
+      .add_flag("--ring", arguments.ring,
+                "The rope is a ring without ends, also where something lies over it")
+      ->excludes(command.get_option("--end"));
+  command
       .add_option("--previous", arguments.previous,
                   "estimate.json of the frame before: keeps the order of the ends, and the way "
                   "through the mask where the frame leaves it open")
@@ -29,6 +33,7 @@ Result<Hints> hints_of(const HintArguments& arguments) {
   Hints hints;
   if (const auto pixel = pixel_of(arguments.first_end)) hints.first_end = *pixel;
   for (const std::string& end : arguments.ends) hints.ends.emplace_back(*pixel_of(end));
+  if (arguments.ring) hints.closed = true;
   if (arguments.previous.empty()) return hints;
   const auto nodes = read_previous(arguments.previous);
   if (!nodes) return Error{nodes.error().code, "--previous " + nodes.error().message};

@@ -14,10 +14,11 @@ namespace flowdlo::tools {
 struct HintArguments {
   std::string first_end;          ///< "U,V"; empty: none
   std::vector<std::string> ends;  ///< the same
+  bool ring = false;
   std::filesystem::path previous;
 };
 
-/// Adds --first-end, --end and --previous. `arguments` must outlive the command's parsing.
+/// Adds --first-end, --end, --ring and --previous. `arguments` must outlive the command's parsing.
 void add_hint_options(CLI::App& command, HintArguments& arguments);
 
 /// Reads --previous, an estimate.json that an earlier run wrote. Fails with kIo or kBadInput,

@@ -63,6 +63,13 @@ Result<Hints> hints_of(const flowdlo_hints& given, const flowdlo_frame& frame) {
     }
   }
   if (given.rope_length_m != 0) hints.rope_length_m = given.rope_length_m;
+  if (given.closed < -1 || given.closed > 1) {
+    return Error{ErrorCode::kBadInput,
+                 fmt::format("flowdlo_hints.closed: expected 1, -1 or 0, got {}; fill the struct "
+                             "with flowdlo_hints_init before use",
+                             given.closed)};
+  }
+  if (given.closed != 0) hints.closed = given.closed > 0;
   auto first = place_of(given.first_end, frame, "first_end");
   if (!first) return first.error();
   hints.first_end = *first;

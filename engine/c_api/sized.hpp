@@ -81,7 +81,7 @@ template <>
 struct Kind<flowdlo_hints> {
   static constexpr const char* kName = "flowdlo_hints";
   static constexpr std::size_t kFirstBytes =
-      offsetof(flowdlo_hints, ends) + sizeof(flowdlo_hints::ends);
+      offsetof(flowdlo_hints, reserved) + sizeof(flowdlo_hints::reserved);
   static_assert(sizeof(flowdlo_hints) == kFirstBytes);
 };
 

@@ -22,12 +22,13 @@ struct ReadConfig {
   weights::PriorKind prior_kind = weights::PriorKind::kRefined;
   double rope_length_m = 0;             ///< 0: unknown
   std::vector<Eigen::Vector2f> ends{};  ///< as path::TraceConfig's
+  std::optional<bool> closed{};         ///< likewise
   threads::Pool* pool = nullptr;        ///< as lift_all's
 
   /// `cleaned` as path::Glance has it; null: not known.
   [[nodiscard]] path::TraceConfig trace(
       const std::shared_ptr<const path::Region>& cleaned = {}) const {
-    return {.rope_length_m = rope_length_m, .ends = ends, .cleaned = cleaned};
+    return {.rope_length_m = rope_length_m, .ends = ends, .closed = closed, .cleaned = cleaned};
   }
 };
 

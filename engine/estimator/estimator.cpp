@@ -208,9 +208,9 @@ Result<Estimate> Estimator::Impl::estimate(const Frame& given, const Hints& hint
   stage.lap(timings.evidence_ms);
   Frame frame = given;
   if (ground_m) frame.depth_m = *ground_m;
-  const estimator::ReadConfig reading{estimator::prior_kind(config, metadata),
-                                      hints.rope_length_m.value_or(config.rope_length_m),
-                                      estimator::end_directions(hints, frame.intrinsics), &pool};
+  const estimator::ReadConfig reading{
+      estimator::prior_kind(config, metadata), hints.rope_length_m.value_or(config.rope_length_m),
+      estimator::end_directions(hints, frame.intrinsics), hints.closed, &pool};
   networks.begin_frame();
   bool no_time_for_field = false;
   estimator::SeeAxes see;

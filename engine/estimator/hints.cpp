@@ -22,6 +22,7 @@ constexpr double kStill_m = 0.003;   // mean distance of a rope from where it wa
 constexpr double kMoved = 0.00025;   // probability that it is anywhere else
 constexpr double kEndReach = 2;      // rope widths between a given end and the one that is meant
 constexpr double kNoEnd = 0.0025;    // probability that none is
+constexpr double kNoRing = 1e-6;     // probability that what is said to be a ring has two ends
 
 /// The log of a density that falls off with a distance in units of its spread, beside one that is
 /// the same everywhere and has a share of `elsewhere`; 0 at no distance, and as of an infinite one
@@ -139,6 +140,11 @@ Result<void> check(const Hints& hints, const Frame& frame) {
     fault(fmt::format("Hints.ends: expected {} at most, got {}; a rope has no more", kMostEnds,
                       hints.ends.size()));
   }
+  if (hints.closed == true && !hints.ends.empty()) {
+    fault(
+        fmt::format("Hints.ends: expected none of a rope that Hints.closed says is a ring, got {}",
+                    hints.ends.size()));
+  }
   for (std::size_t i = 0; i < std::min(hints.ends.size(), kMostEnds); ++i) {
     if (!fine(hints.ends[i], frame)) {
       fault(fault_of(fmt::format("Hints.ends[{}]", i), hints.ends[i], frame));
@@ -168,7 +174,7 @@ std::vector<Eigen::Vector2f> end_directions(const Hints& hints, const Intrinsics
 std::vector<double> log_priors(const std::vector<gate::Candidate>& candidates, const Hints& hints,
                                const Intrinsics& camera) {
   const bool before = hints.previous && geometry::all_finite(*hints.previous);
-  if (!before && hints.ends.empty()) return {};
+  if (!before && hints.ends.empty() && hints.closed != true) return {};
   std::vector<double> logs;
   for (const gate::Candidate& candidate : candidates) {
     double log = 0;
@@ -178,6 +184,7 @@ std::vector<double> log_priors(const std::vector<gate::Candidate>& candidates, c
       log += log_near(moved_m / kStill_m, kMoved);
     }
     if (!hints.ends.empty()) log += log_of_ends(candidate, hints.ends, camera);
+    if (hints.closed == true && candidate.ring == 0) log += std::log(kNoRing);
     logs.push_back(log);
   }
   return logs;

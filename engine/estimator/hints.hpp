@@ -20,9 +20,10 @@ namespace flowdlo::estimator {
 [[nodiscard]] std::vector<Eigen::Vector2f> end_directions(const Hints& hints,
                                                           const Intrinsics& camera);
 
-/// [candidates] the log of how likely each is beside the others by the frame before and by the ends
-/// that are given, 0 at most; empty where neither is. Each of the two is a mixture: with a fixed
-/// share it says nothing of this frame, so that a frame that is clear overrules it.
+/// [candidates] the log of how likely each is beside the others by the frame before, by the ends
+/// that are given and by whether it closes, 0 at most; empty where nothing is given. The former two
+/// are mixtures: with a fixed share each says nothing of this frame, so that a frame that is clear
+/// overrules it.
 [[nodiscard]] std::vector<double> log_priors(const std::vector<gate::Candidate>& candidates,
                                              const Hints& hints, const Intrinsics& camera);
 

@@ -58,13 +58,13 @@ float most_for(int a, int b, const Strands& strands) {
 
 // Pairs of ends that a link may join; the short ones first: most others then cost more than what is
 // kept.
-std::vector<Nearness> near_pairs(const Strands& strands) {
+std::vector<Nearness> near_pairs(const Strands& strands, bool ring) {
   const LinkTerms& weights = weights_of(strands);
   const std::vector<int> ends = open_ends(strands);
   std::vector<Nearness> pairs;
   for (std::size_t i = 0; i < ends.size(); ++i) {
     for (std::size_t j = i + 1; j < ends.size(); ++j) {
-      if (ends[i] / 2 == ends[j] / 2 && !strands.several) continue;
+      if (ends[i] / 2 == ends[j] / 2 && !strands.several && !ring) continue;
       const StrandEnd& a = strands.end(ends[i]);
       const StrandEnd& b = strands.end(ends[j]);
       const float apart = (a.point_px - b.point_px).norm();
@@ -87,10 +87,10 @@ bool cheaper(const Bond& a, const Bond& b) {
 // The few links of each end that cost least.
 class Offers {
  public:
-  Offers(const Strands& strands, const Cover& cover, const Opinion& opinion)
+  Offers(const Strands& strands, const Cover& cover, const Opinion& opinion, bool ring)
       : cheapest_(2 * strands.list.size()) {
     const LinkTerms& weights = weights_of(strands);
-    for (const Nearness& pair : near_pairs(strands)) {
+    for (const Nearness& pair : near_pairs(strands, ring)) {
       const float most = std::min(pair.most, std::max(kept(pair.from), kept(pair.to)));
       if (pair.least >= most) continue;
       const Link link = link_between(pair.from, pair.to, strands, cover, weights, most,
@@ -175,9 +175,9 @@ std::vector<Eigen::Vector2f> points_between(int from, int to, const Strands& str
 }
 
 Prices prices_of(const Strands& strands, const Region& region, const Frame& frame,
-                 const Opinion& opinion) {
+                 const Opinion& opinion, bool ring) {
   const Cover cover(region, frame, strands.width_px, strands.seen);
-  const Offers offers(strands, cover, opinion);
+  const Offers offers(strands, cover, opinion, ring);
   return strands.links != nullptr ? by_network(offers, strands, cover, opinion)
                                   : by_energy(offers, strands, opinion);
 }

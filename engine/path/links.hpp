@@ -25,11 +25,12 @@ struct Prices {
 
 /// By heed of another reading's opinion. Where a strand field shows the strands and has a network
 /// that links them, that says what each costs; else energy.hpp does, which chooses in any case
-/// which few links are asked about, and how they run. Where there may be several ropes, a link may
-/// lead from one end of a strand to its other one, for there may be rings, but none from one end at
-/// the image's border to another: what comes back is another rope.
+/// which few links are asked about, and how they run. Where there may be several ropes, or the
+/// only one is known to be a `ring`, a link may lead from one end of a strand to its other one. Of
+/// several ropes none leads from one end at the image's border to another: what comes back is
+/// another rope.
 [[nodiscard]] Prices prices_of(const Strands& strands, const Region& region, const Frame& frame,
-                               const Opinion& opinion = {});
+                               const Opinion& opinion = {}, bool ring = false);
 
 /// The link between two ends by energy.hpp, whatever it costs. `elsewhere` is kLinkHeard.
 [[nodiscard]] Link link_between(int from, int to, const Strands& strands, const Cover& cover,

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "flowdlo/frame.hpp"
@@ -41,6 +42,7 @@ struct TraceConfig {
   double rope_length_m = 0;                 ///< known length; 0: unknown
   std::vector<Eigen::Vector2f> ends{};      ///< where ends are known to be: (x / z, y / z) of the
                                             ///< camera frame, two at most
+  std::optional<bool> closed{};             ///< known to be a ring, or to have two ends
   std::shared_ptr<const Region> cleaned{};  ///< as glance() has it, of the same frame; null: not
                                             ///< known yet
 };

@@ -73,12 +73,16 @@ std::vector<Eigen::Vector2f> places_of(const std::vector<Eigen::Vector2f>& direc
 std::vector<Path> ranked_paths(const Strands& strands, const Region& region, const Frame& frame,
                                const TraceConfig& config) {
   std::vector<Path> paths;
-  const Prices prices = prices_of(strands, region, frame);
+  const Prices prices = prices_of(strands, region, frame, {}, config.closed == true);
   const int candidates = config.rope_length_m > 0 ? kLengthCandidates : 2;
   const int count = std::max(candidates, config.alternatives + 1);
   const auto ends = places_of(config.ends, region, frame.intrinsics);
-  for (const Traversal& traversal : search(strands, prices, count, ends)) {
+  std::vector<Traversal> ways;
+  if (config.closed == true) ways = search_rings(strands, prices, count);
+  if (ways.empty()) ways = search(strands, prices, count, ends);
+  for (const Traversal& traversal : ways) {
     Path path = assemble(traversal, strands, region, frame);
+    if (config.closed == false) path.closed = false;
     if (path.points_px.size() >= 2) paths.push_back(std::move(path));
   }
   weigh_length(paths, frame, config.rope_length_m);

@@ -19,6 +19,7 @@ constexpr float kTightWidths = 8;      // a ring is this long: bends of three ra
 constexpr float kTightCost = 10;       // of a shorter one
 constexpr int kPriceSteps = 10;        // each twice as far, until a price is too high or too low,
 constexpr int kPriceHalvings = 6;      // and then between two that are
+constexpr float kNoEnds = 1000;        // of a rope, a price at which none has two ends
 constexpr float kEndReach = 2;         // widths within which a place means an end
 
 // The ends of all strands as things to be paired: by a bond, or, where a strand is left out, its
@@ -95,13 +96,18 @@ class Ends {
     return result;
   }
 
-  // The way as one rope's with two ends, all other strands left out.
+  // The way as the only rope's, all other strands left out.
   [[nodiscard]] Traversal alone(Traversal way) const {
     way.cost = all_left_out_;
     for (const int enter : way.enters) way.cost -= pairs_[first_left_out_ + enter / 2].cost;
-    if (way.closed) return way;
+    if (strands_.list[way.enters.front() / 2].ring) return way;
     for (std::size_t i = 1; i < way.enters.size(); ++i) {
       way.cost += bond_cost(way.enters[i - 1] ^ 1, way.enters[i]);
+    }
+    if (way.closed) {
+      way.cost += bond_cost(way.enters.back() ^ 1, way.enters.front());
+      way.cost += tight(way) ? kTightCost : 0;
+      return way;
     }
     way.cost += stops_[way.enters.front()] + stops_[way.enters.back() ^ 1];
     return way;
@@ -191,6 +197,25 @@ void sort_and_cut(std::vector<Priced>& list, std::size_t count) {
   if (list.size() > count) list.resize(count);
 }
 
+// The ways of the sets, each as the only rope's, cheapest first; of those of one kind the cheapest.
+std::vector<Traversal> ways_alone(const Ends& ends, const std::vector<RopeSet>& sets,
+                                  const Strands& strands, int count) {
+  std::map<std::vector<int>, Traversal> found;
+  for (const RopeSet& set : sets) {
+    for (const Traversal& way : set.ways) {
+      Traversal one = ends.alone(way);
+      auto key = key_of(one, strands);
+      if (key.empty()) key = one.enters;
+      const auto [place, added] = found.try_emplace(std::move(key), one);
+      if (!added && one.cost < place->second.cost) place->second = std::move(one);
+    }
+  }
+  std::vector<Traversal> result;
+  for (auto& [key, way] : found) result.push_back(std::move(way));
+  sort_and_cut(result, static_cast<std::size_t>(count));
+  return result;
+}
+
 }  // namespace
 
 std::vector<int> key_of(const Traversal& way, const Strands& strands) {
@@ -227,20 +252,17 @@ std::vector<RopeSet> search_sets(const Strands& strands, const Prices& prices, i
 std::vector<Traversal> search(const Strands& strands, const Prices& prices, int count,
                               const std::vector<Eigen::Vector2f>& ends) {
   const Ends paired(strands, prices.bonds, only_stops_of(strands, prices.stops, ends), false);
-  std::map<std::vector<int>, Traversal> found;  // the cheapest of each kind
-  for (const RopeSet& set : paired.sets_around(1)) {
-    for (const Traversal& way : set.ways) {
-      Traversal one = paired.alone(way);
-      auto key = key_of(one, strands);
-      if (key.empty()) key = one.enters;
-      const auto [place, added] = found.try_emplace(std::move(key), one);
-      if (!added && one.cost < place->second.cost) place->second = std::move(one);
-    }
+  return ways_alone(paired, paired.sets_around(1), strands, count);
+}
+
+std::vector<Traversal> search_rings(const Strands& strands, const Prices& prices, int count) {
+  const Ends paired(strands, prices.bonds, prices.stops, true);
+  std::vector<RopeSet> sets = paired.sets(kNoEnds, kPairings);
+  for (RopeSet& set : sets) {
+    const auto open = [](const Traversal& way) { return !way.closed; };
+    set.ways.erase(std::remove_if(set.ways.begin(), set.ways.end(), open), set.ways.end());
   }
-  std::vector<Traversal> result;
-  for (auto& [key, way] : found) result.push_back(std::move(way));
-  sort_and_cut(result, static_cast<std::size_t>(count));
-  return result;
+  return ways_alone(paired, sets, strands, count);
 }
 
 }  // namespace flowdlo::path

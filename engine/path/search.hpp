@@ -41,6 +41,11 @@ struct RopeSet {
 [[nodiscard]] std::vector<Traversal> search(const Strands& strands, const Prices& prices, int count,
                                             const std::vector<Eigen::Vector2f>& ends = {});
 
+/// The same of one rope that is known to be a ring: ways that close, each with the bond that closes
+/// it. None where no bonds close one.
+[[nodiscard]] std::vector<Traversal> search_rings(const Strands& strands, const Prices& prices,
+                                                  int count);
+
 /// The strands by which ways are told apart, in an order that is the same for a way and its
 /// reverse, and for a ring wherever it begins. Strands below kMinorWidths tell nothing.
 [[nodiscard]] std::vector<int> key_of(const Traversal& way, const Strands& strands);

@@ -361,6 +361,8 @@ typedef struct flowdlo_hints {
   double rope_length_m;    /* of the whole rope, metres; 0: as flowdlo_config says */
   flowdlo_place first_end; /* the end nearest to it is node 0 */
   flowdlo_place ends[2];   /* where the rope ends, as far as that is known */
+  int32_t closed;          /* 1: it is a ring without ends; -1: it has two ends; 0: unknown */
+  int32_t reserved;        /* 0 */
 } flowdlo_hints;
 
 /* Fills `hints` with nothing known. `struct_size` is sizeof(flowdlo_hints). */

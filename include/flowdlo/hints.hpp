@@ -22,8 +22,8 @@ struct Pixel {
 using Place = std::variant<Pixel, Point3>;
 
 /// All of it may be left out. Hints decide two things and no other: which way through the mask is
-/// taken, and which of its ends comes first. `confidence` and `sigma_m` stay what the frame alone
-/// says. Where hints say nothing, node 0 is the end of smaller x; of smaller y, then z, where those
+/// taken, and where it begins. `confidence` and `sigma_m` are what the frame alone says of that
+/// way. Where hints say nothing, node 0 is the end of smaller x; of smaller y, then z, where those
 /// are equal (the rule of the thesis, Sec. 3.3). That rule looks at the frame alone: where the ends
 /// lie one above the other, noise exchanges them.
 struct Hints {
@@ -37,6 +37,12 @@ struct Hints {
 
   /// Of the whole rope, metres; 0: unknown. Takes the place of Config::rope_length_m.
   std::optional<double> rope_length_m{};
+
+  /// Whether the rope is a ring without ends. Where nothing parts a ring in the image it is found
+  /// to be one; where something passes over it, or it passes over itself, only this tells it from a
+  /// rope whose two ends are hidden there or touch. True: ways that close are taken wherever there
+  /// are any, and `ends` has to be empty. False: it has two ends, even where none shows.
+  std::optional<bool> closed{};
 
   /// The nodes of the frame before, Estimate::nodes. The estimate keeps their order, and of ways
   /// that the frame does not tell apart the one near them is taken. One that lies elsewhere by some

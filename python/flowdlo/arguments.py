@@ -143,6 +143,13 @@ def number(name: str, value: Any) -> float:
     return float(value)
 
 
+def flag(name: str, value: Any) -> bool:
+    """True or False, and nothing that counts as one."""
+    if not isinstance(value, (bool, np.bool_)):
+        raise BadInput(f"{name}: expected True, False or None, got {value!r}")
+    return bool(value)
+
+
 def whole(name: str, value: Any) -> int:
     """An integer that C has as well."""
     try:

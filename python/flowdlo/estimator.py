@@ -124,6 +124,7 @@ class Estimator:
         first_end: npt.ArrayLike | None = None,
         ends: Sequence[npt.ArrayLike] = (),
         rope_length_m: float | None = None,
+        closed: bool | None = None,
         previous: Estimate | npt.ArrayLike | None = None,
     ) -> Estimate:
         """The centerline of the rope in one frame.
@@ -141,6 +142,8 @@ class Estimator:
             of the camera frame in metres.
         ends: places of ends of the rope, two at most: evidence for the way through the mask.
         rope_length_m: of this frame's rope, metres.
+        closed: True where the rope is known to be a ring without ends, `ends` being empty then;
+            False where it has two ends.
         previous: the estimate of the frame before, or its nodes: the order of the ends is kept, and
             of ways that the frame does not tell apart the one near it is taken.
 
@@ -151,7 +154,7 @@ class Estimator:
         failure: the estimate is then the prior, and `source` says so.
         """
         frame = _frame(depth_m, mask, intrinsics, color_bgr, depth_scale)
-        hints = _hints(first_end, ends, rope_length_m, previous)
+        hints = _hints(first_end, ends, rope_length_m, closed, previous)
         labels = _labels(instances, frame[0])
         return _estimate(self._core.estimate(*frame, labels, hints, self._tracked))
 
@@ -285,6 +288,7 @@ def _hints(
     first_end: npt.ArrayLike | None,
     ends: Sequence[npt.ArrayLike],
     rope_length_m: float | None,
+    closed: bool | None,
     previous: Estimate | npt.ArrayLike | None,
 ) -> dict[str, Any]:
     hints: dict[str, Any] = {}
@@ -294,6 +298,8 @@ def _hints(
         hints["ends"] = [arguments.place("ends", end) for end in ends]
     if rope_length_m is not None:
         hints["rope_length_m"] = arguments.number("rope_length_m", rope_length_m)
+    if closed is not None:
+        hints["closed"] = arguments.flag("closed", closed)
     if previous is not None:
         nodes = previous.nodes if isinstance(previous, Estimate) else previous
         hints["previous"] = arguments.nodes("previous", nodes)

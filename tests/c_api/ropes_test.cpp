@@ -277,6 +277,16 @@ TEST(CHints, WhatCannotBeIsNamed) {
   EXPECT_EQ(flowdlo_estimator_estimate_with_hints(estimator.get(), &frame, &hints, &estimate),
             FLOWDLO_BAD_INPUT);
   EXPECT_THAT(flowdlo_last_error(), HasSubstr("rope_length_m"));
+  hints = no_hints();
+  hints.closed = 2;
+  EXPECT_EQ(flowdlo_estimator_estimate_with_hints(estimator.get(), &frame, &hints, &estimate),
+            FLOWDLO_BAD_INPUT);
+  EXPECT_THAT(flowdlo_last_error(), HasSubstr("flowdlo_hints.closed: expected 1, -1 or 0, got 2"));
+  hints.closed = 1;
+  hints.ends[0] = {FLOWDLO_PLACE_PIXEL, {10, 10, 0}};
+  EXPECT_EQ(flowdlo_estimator_estimate_with_hints(estimator.get(), &frame, &hints, &estimate),
+            FLOWDLO_BAD_INPUT);
+  EXPECT_THAT(flowdlo_last_error(), HasSubstr("Hints.ends: expected none"));
   hints.struct_size = 3;
   EXPECT_EQ(flowdlo_estimator_estimate_with_hints(estimator.get(), &frame, &hints, &estimate),
             FLOWDLO_BAD_INPUT);

@@ -13,6 +13,7 @@
 #include "geometry/ring.hpp"
 #include "reference/program.hpp"
 #include "support/ring_frame.hpp"
+#include "support/wave_frame.hpp"
 #include "weights/field_weights.hpp"
 
 namespace flowdlo {
@@ -69,6 +70,49 @@ TEST_F(Ring, BeginsWhereItDidInTheFrameBefore) {
     EXPECT_TRUE(std::is_permutation(found.support.begin(), found.support.end(),
                                     alone.support.begin(), alone.support.end()));
   }
+}
+
+/// A bar of 24 px lies across it, 40 mm above the table.
+void lay_a_bar_over(testing::RingFrame& ring) {
+  for (int v = 0; v < testing::RingFrame::kHeight; ++v) {
+    for (int u = 140; u < 164; ++u) {
+      const auto pixel =
+          static_cast<std::size_t>(v) * testing::RingFrame::kWidth + static_cast<std::size_t>(u);
+      ring.mask[pixel] = 0;
+      ring.depth_m[pixel] = testing::RingFrame::kTable_m - 0.04F;
+      for (std::size_t c = 0; c < 3; ++c) ring.color_bgr[3 * pixel + c] = 160;
+    }
+  }
+}
+
+TEST_F(Ring, ThatABarPartsIsClosedWhereThatIsKnown) {
+  lay_a_bar_over(ring_);
+  EXPECT_FALSE(estimate().closed);
+  const Estimate found = estimate({.closed = true});
+  EXPECT_TRUE(found.closed);
+  EXPECT_LT(geometry::mean_distance(ring_.truth, found.nodes, true), 0.003);
+  EXPECT_LT(geometry::distance(found.nodes.front(), found.nodes.back()),
+            testing::RingFrame::kRadius_m);
+}
+
+TEST_F(Ring, HasTwoEndsWhereThatIsKnown) { EXPECT_FALSE(estimate({.closed = false}).closed); }
+
+TEST_F(Ring, IsNotBelievedToBeOneAgainstAllThatTheFrameShows) {
+  const testing::WaveFrame wave;  // whose ends lie far apart in plain sight
+  const auto plain = estimator_.estimate(wave.frame());
+  const auto ring = estimator_.estimate(wave.frame(), {.closed = true});
+  ASSERT_TRUE(plain && ring);
+  EXPECT_GT(plain->confidence, 0.7F);
+  EXPECT_LT(ring->confidence, 0.5F);
+}
+
+TEST_F(Ring, ThatIsKnownHasNoEnds) {
+  const auto refused =
+      estimator_.estimate(ring_.frame(), {.ends = {Pixel{10, 10}}, .closed = true});
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().code, ErrorCode::kBadInput);
+  EXPECT_EQ(refused.error().message,
+            "Hints.ends: expected none of a rope that Hints.closed says is a ring, got 1");
 }
 
 TEST_F(Ring, ThatTwoReadingsFindIsOneHypothesis) {

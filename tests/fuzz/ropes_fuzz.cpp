@@ -49,6 +49,7 @@ Hints hints_of(ByteSource& bytes) {
   if ((kinds & 2) != 0) hints.ends.push_back(place(bytes, (kinds & 64) != 0));
   if ((kinds & 4) != 0) hints.ends.push_back(place(bytes, (kinds & 128) != 0));
   if ((kinds & 8) != 0) hints.rope_length_m = bytes.number<double>();
+  if ((kinds & 14) == 0) hints.closed = (kinds & 32) != 0;
   if ((kinds & 16) != 0) {
     hints.previous.emplace();
     const flowdlo::Point3 from{bytes.number<float>(), bytes.number<float>(), bytes.number<float>()};

@@ -123,6 +123,46 @@ TEST(Search, UsesNoStrandTwice) {
   }
 }
 
+TEST(SearchRings, FindsTheCheapestWayThatClosesWithTheBondThatClosesIt) {
+  const Strands strands = strands_of(3, 400);
+  std::vector<std::vector<Bond>> bonds(6);
+  join(bonds, 1, 2, 1);  // the first and the second close in two bonds,
+  join(bonds, 3, 0, 2);
+  join(bonds, 3, 4, 30);  // all three in dearer ones, which still cost less than a strand left out
+  join(bonds, 5, 0, 40);
+  const auto ways = search_rings(strands, free_ends(bonds), 4);
+  ASSERT_GE(ways.size(), 2U);
+  for (const Traversal& way : ways) EXPECT_TRUE(way.closed);
+  EXPECT_EQ(ways.front().enters.size(), 3U);
+  EXPECT_FLOAT_EQ(ways.front().cost, 1 + 30 + 40);
+  EXPECT_EQ(ways[1].enters.size(), 2U);
+  EXPECT_FLOAT_EQ(ways[1].cost, 1 + 2 + kLeftOutEnergy * 400 / 10);
+}
+
+TEST(SearchRings, OneStrandClosesByItsTwoEndsAndARingWithoutABond) {
+  Strands strands = strands_of(1, 400);
+  std::vector<std::vector<Bond>> bonds(2);
+  join(bonds, 0, 1, 5);
+  const auto parted = search_rings(strands, free_ends(bonds), 4);
+  ASSERT_EQ(parted.size(), 1U);
+  EXPECT_TRUE(parted.front().closed);
+  EXPECT_FLOAT_EQ(parted.front().cost, 5);
+  strands.list.front().ring = true;
+  const auto whole = search_rings(strands, free_ends(std::vector<std::vector<Bond>>(2)), 4);
+  ASSERT_EQ(whole.size(), 1U);
+  EXPECT_TRUE(whole.front().closed);
+  EXPECT_FLOAT_EQ(whole.front().cost, 0);
+}
+
+TEST(SearchRings, AreNoneWhereNothingClosesOrRopesWouldBendTooTightly) {
+  std::vector<std::vector<Bond>> bonds(4);
+  join(bonds, 1, 2, 1);
+  EXPECT_TRUE(search_rings(strands_of(2, 400), free_ends(bonds), 4).empty());
+  std::vector<std::vector<Bond>> tight(2);
+  join(tight, 0, 1, 1);
+  EXPECT_TRUE(search_rings(strands_of(1, 40), free_ends(tight), 4).empty());
+}
+
 TEST(Search, LeavesOutAPieceThatCostsMoreThanItCovers) {
   const Strands strands = strands_of(2, 20);
   std::vector<std::vector<Bond>> bonds(4);

@@ -115,6 +115,18 @@ def test_the_order_of_the_frame_before_is_kept(estimator):
     assert estimator.estimate(depth_m, bar > 0, CAMERA, previous=turned.nodes).reversed
 
 
+def test_a_ring_that_a_gap_parts_is_closed_where_that_is_known(estimator):
+    v, u = np.mgrid[:240, :320]
+    ring = np.abs(np.hypot(u - 160, v - 120) - 80) < 5
+    ring &= ~((u > 200) & (np.abs(v - 120) < 8))
+    depth_m = np.where(ring, 0.5, 0.6).astype(np.float32)
+    assert not estimator.estimate(depth_m, ring, CAMERA).closed
+    closed = estimator.estimate(depth_m, ring, CAMERA, closed=True)
+    assert closed.closed
+    assert np.linalg.norm(closed.nodes[0] - closed.nodes[-1]) < 2e-3
+    assert not estimator.estimate(depth_m, ring, CAMERA, closed=False).closed
+
+
 @pytest.mark.parametrize(
     "hints",
     [
@@ -124,6 +136,8 @@ def test_the_order_of_the_frame_before_is_kept(estimator):
         {"ends": [(1, 2), (3, 4), (5, 6)]},
         {"rope_length_m": -1.0},
         {"rope_length_m": "long"},
+        {"closed": 1},
+        {"closed": True, "ends": [(60, 120)]},
         {"previous": np.zeros((3, 3))},
     ],
 )

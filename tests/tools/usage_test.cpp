@@ -67,6 +67,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Arguments{"--weights", "none.fdw"}, Arguments{"--first-end", "12"},
                     Arguments{"--first-end", "12,nan"}, Arguments{"--end", "12;7"},
                     Arguments{"--end", "1,2", "--end", "three,4"},
+                    Arguments{"--ring", "--end", "1,2"}, Arguments{"--ring", "--ropes", "2"},
                     Arguments{"--previous", "none.json"}, Arguments{"--curve", "1"},
                     Arguments{"--curve", "65537"}, Arguments{"--device", "Abacus 3000"}));
 
