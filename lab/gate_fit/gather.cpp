@@ -9,6 +9,7 @@
 #include "estimator/device_choice.hpp"
 #include "field/network.hpp"
 #include "flow/sampler.hpp"
+#include "flowdlo/hints.hpp"
 #include "flowdlo/weights.hpp"
 #include "gate_fit/bare.hpp"
 #include "gate_fit/sample_file.hpp"
@@ -58,10 +59,14 @@ struct Batch {
   bool bare = false;  ///< some frames lack what some cameras do not give
 };
 
-/// Every so many training frames come with the rope's length, so that the fit learns what it is
-/// worth.
-double known_length_m(const SampleOrigin& origin, std::uint64_t index, double length_m) {
-  return origin.part == "training" && index % kLengthKnownEvery == 0 ? length_m : 0;
+/// What the estimator is told of a training frame, so that the fit learns what that is worth: of
+/// every so many the rope's length, and of three in four rings that others part that it is one.
+Hints known_of(const SampleOrigin& origin, std::uint64_t index, double length_m) {
+  Hints known;
+  if (origin.part != "training") return known;
+  if (index % kLengthKnownEvery == 0) known.rope_length_m = length_m;
+  if (origin.split == kRings && index % 2 == 1 && index % 8 != 7) known.closed = true;
+  return known;
 }
 
 Result<flow::Sampler> sampler_of(const GatherConfig& config, const Model& model) {
@@ -130,6 +135,7 @@ MaybeFrame ring_of(synth::Part part, std::uint64_t index, bool color) {
     if (scene->folder.instances[pixel] != label) scene->folder.mask[pixel] = 0;
   }
   scene->folder.instances.clear();
+  scene->folder.truth = ring->nodes;
   scene->ropes = {*ring};
   return std::optional(*std::move(scene));
 }
@@ -157,10 +163,10 @@ Measured measured_one(const GatherConfig& config, const Batch& batch, const Mode
   auto& scene = *made;
   if (batch.bare) lay_bare(scene->folder, index);
   const auto kind = model.weights->metadata.variant.prior_kind;
-  const double length_m = known_length_m(batch.origin, index, scene->meta.length_m);
+  const Hints known = known_of(batch.origin, index, scene->meta.length_m);
   return measure(*scene, sampler, networks.field ? &*networks.field : nullptr,
                  networks.refine ? &*networks.refine : nullptr,
-                 model.fitted ? &*model.fitted : nullptr, config.draws, kind, length_m);
+                 model.fitted ? &*model.fitted : nullptr, config.draws, kind, known);
 }
 
 /// Scenes `done` and later; several at a time where there is no model, which takes threads itself.

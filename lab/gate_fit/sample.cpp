@@ -50,10 +50,12 @@ std::optional<Drawn> draw(const Frame& frame, const estimator::Conditions& condi
 std::optional<GateSample> measure(const synth::SyntheticFrame& scene, flow::Sampler* sampler,
                                   field::Network* field, refine::Network* refine,
                                   const gate::Fitted* fitted, int draws, weights::PriorKind kind,
-                                  double rope_length_m) {
+                                  const Hints& known) {
   const Frame frame = scene.frame();
   Timings timings;
-  const estimator::ReadConfig reading{kind, rope_length_m};
+  const double rope_length_m = known.rope_length_m.value_or(0);
+  const estimator::ReadConfig reading{
+      .prior_kind = kind, .rope_length_m = rope_length_m, .closed = known.closed};
   auto conditions =
       estimator::gather(frame, reading, timings, nullptr, estimator::seen_by(field, frame));
   if (!conditions) return std::nullopt;

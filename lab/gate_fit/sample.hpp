@@ -9,6 +9,7 @@
 
 #include "field/network.hpp"
 #include "flow/sampler.hpp"
+#include "flowdlo/hints.hpp"
 #include "gate/candidate.hpp"
 #include "gate/fitted.hpp"
 #include "refine/network.hpp"
@@ -37,12 +38,12 @@ struct GateSample {
 
 /// Nothing where the engine finds no path or the device fails. Priors alone where `sampler` is
 /// null, without a strand field where `field` is, nodes unrefined where `refine` is. Where `fitted`
-/// is sure of the first reading, that is all there is; null: it never is. `rope_length_m` 0:
-/// unknown.
+/// is sure of the first reading, that is all there is; null: it never is. Of `known` the
+/// rope's length counts, and whether it is a ring.
 [[nodiscard]] std::optional<GateSample> measure(const synth::SyntheticFrame& scene,
                                                 flow::Sampler* sampler, field::Network* field,
                                                 refine::Network* refine, const gate::Fitted* fitted,
                                                 int draws, weights::PriorKind kind,
-                                                double rope_length_m);
+                                                const Hints& known);
 
 }  // namespace flowdlo::lab
