@@ -195,11 +195,10 @@ Result<estimator::Sampled> Estimator::Impl::sample(const Frame& frame,
 }
 
 /// The field first. Where that leaves doubt, a closer look through it and the mask alone, and the
-/// model beside them; then the choice.
+/// model beside them; then the choice. Expects a valid frame.
 Result<Estimate> Estimator::Impl::estimate(const Frame& given, const Hints& hints, Tensors* tensors,
                                            const estimator::Budget& budget,
                                            const estimator::Part& part) {
-  if (auto valid = validate(given); !valid) return valid.error();
   if (auto valid = estimator::check(hints, given); !valid) return valid.error();
   Timings timings;
   estimator::Stopwatch total;
@@ -307,6 +306,7 @@ Result<void> Estimator::usable() const {
 Result<Estimate> Estimator::run(const Frame& frame, const Hints& hints, Tensors* tensors) {
   return guard::guarded("Estimator::estimate", [&]() -> Result<Estimate> {
     if (auto fine = usable(); !fine) return fine.error();
+    if (auto valid = validate(frame); !valid) return valid.error();
     return impl_->estimate(frame, hints, tensors, estimator::Budget(impl_->config.budget_ms));
   });
 }

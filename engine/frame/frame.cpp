@@ -9,6 +9,7 @@
 #include "frame/faults.hpp"
 #include "frame/limits.hpp"
 #include "geometry/depth.hpp"
+#include "geometry/mask_box.hpp"
 #include "guard/guarded.hpp"
 
 namespace flowdlo {
@@ -64,15 +65,14 @@ void check_unit(const Frame& frame, Faults& faults) {
   std::size_t measured = 0;
   std::size_t far = 0;
   double sum_m = 0;
-  for (std::size_t p = 0; p < frame.mask.size(); ++p) {
-    const float depth_m = frame.depth_m[p];
-    if (frame.mask[p] <= 127 || !(depth_m > geometry::kLeastDepth_m)) continue;
-    if (!std::isfinite(depth_m)) continue;
+  geometry::each_masked(frame, [&](int, int, std::size_t pixel) {
+    const float depth_m = frame.depth_m[pixel];
+    if (!(depth_m > geometry::kLeastDepth_m) || !std::isfinite(depth_m)) return;
     ++measured;
-    if (depth_m <= frame::kMostRope_m) continue;
+    if (depth_m <= frame::kMostRope_m) return;
     ++far;
     sum_m += static_cast<double>(depth_m);
-  }
+  });
   if (2 * far <= measured) return;
   faults.bad_input(fmt::format(
       "Frame.depth_m: expected metres, below {} where the mask is set, got {:.4g} on average; "
