@@ -17,8 +17,8 @@ if(PROJECT_IS_TOP_LEVEL)
 else()
   # What an embedding project sets for all its code must neither stop ours nor change its answers:
   # warnings that are errors to it, arithmetic without NaN.
-  target_compile_options(flowdlo_options INTERFACE $<$<CXX_COMPILER_ID:GNU,Clang,AppleClang>:-w>
-                         $<$<CXX_COMPILER_ID:GNU,Clang,AppleClang>:-fno-fast-math>)
+  target_compile_options(flowdlo_options INTERFACE
+                         "$<$<CXX_COMPILER_ID:GNU,Clang,AppleClang>:-w;-fno-fast-math>")
 endif()
 if(FLOWDLO_UNITY AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   # A compiler of several files at a time frees its memory once a GiB, not once some MiB: a tenth of its
