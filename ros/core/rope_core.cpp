@@ -152,6 +152,7 @@ flowdlo::Mask made_mask(const flowdlo::Frame& frame, const Choices& choices) {
 struct RopeCore::Impl {
   std::optional<flowdlo::Tracker> tracker;
   int ropes = 1;
+  bool ring = false;
   std::optional<flowdlo::Pixel> end;
 
   Seen estimate(const flowdlo::Frame& frame, bool keep_order) {
@@ -162,6 +163,7 @@ struct RopeCore::Impl {
     if (!keep_order) tracker->forget();
     flowdlo::Hints hints;
     if (end) hints.first_end = *end;
+    if (ring) hints.closed = true;
     const auto one = tracker->estimate(frame, hints);
     if (!one) return {.error = one.error().message};
     Seen seen;
@@ -209,6 +211,10 @@ RopeCore::RopeCore(const Setup& setup, std::string& error) : impl_(std::make_uni
   error = quality ? "" : "~quality: expected full, fast or auto, got \"" + setup.quality + "\"";
   if (!quality) return;
   config.quality = *quality;
+  if (setup.ring && setup.ropes != 1) {
+    error = "~ring: expected ~ropes 1 beside it, got " + std::to_string(setup.ropes);
+    return;
+  }
   config.ropes = setup.ropes;
   config.threads = setup.threads;
   config.rope_length_m = setup.rope_length_m;
@@ -221,6 +227,7 @@ RopeCore::RopeCore(const Setup& setup, std::string& error) : impl_(std::make_uni
     return;
   }
   impl_->ropes = setup.ropes;
+  impl_->ring = setup.ring;
   impl_->tracker = *std::move(made);
 }
 

@@ -39,6 +39,7 @@ struct Setup {
   int ropes = 1;                 ///< 0: as many as there are
   int threads = 0;
   double rope_length_m = 0;
+  bool ring = false;  ///< the rope is a ring, also where something lies over it; with one rope
   double budget_ms = 0;
   std::uint64_t seed = 0;
   double most_moved_m = 0.1;  ///< flowdlo::TrackerConfig's

@@ -271,6 +271,15 @@ def test_an_end_that_is_set_comes_first_until_it_is_reset(master, bag):
         assert np.abs(again - before).max() < 1e-4
 
 
+def test_a_rope_said_to_be_a_ring_is_closed(master, bag):
+    """The rope of the bag is none: what is said is believed, and what comes is unsure."""
+    with Node("ring", ring=True, use_color=True) as node:
+        play(bag)
+        ropes = node.wait_for(len(STAMPS))
+        assert all(message.ropes[0].closed for message in ropes)
+        assert all(message.ropes[0].confidence < 0.5 for message in ropes)
+
+
 def test_ropes_keep_their_numbers_until_they_are_forgotten(master, bag):
     with Node("numbered", ropes=0, use_color=True) as node:
         play(bag)

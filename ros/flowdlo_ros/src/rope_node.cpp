@@ -15,6 +15,7 @@ Setup setup_of(const ros::NodeHandle& own) {
   own.getParam("ropes", setup.ropes);
   own.getParam("threads", setup.threads);
   own.getParam("rope_length_m", setup.rope_length_m);
+  own.getParam("ring", setup.ring);
   own.getParam("budget_ms", setup.budget_ms);
   own.getParam("most_moved_m", setup.most_moved_m);
   own.getParam("patience", setup.patience);

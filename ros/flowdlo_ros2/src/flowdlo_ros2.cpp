@@ -46,6 +46,7 @@ class RopeNode : public rclcpp::Node {
     setup.device = declare_parameter("device", setup.device);
     setup.quality = declare_parameter("quality", setup.quality);
     setup.rope_length_m = declare_parameter("rope_length_m", setup.rope_length_m);
+    setup.ring = declare_parameter("ring", setup.ring);
     setup.budget_ms = declare_parameter("budget_ms", setup.budget_ms);
     choices_.rectified = declare_parameter("rectified", choices_.rectified);
     choices_.keep_order = declare_parameter("keep_order", choices_.keep_order);
