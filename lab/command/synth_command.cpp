@@ -36,6 +36,7 @@ struct SynthOptions {
   std::uint64_t seed = 0;
   int frames_per_scene = 1;
   bool matched = false;
+  bool cords = false;
   std::string scenario;
   fs::path sheet;
   int threads = 0;
@@ -106,8 +107,9 @@ Result<void> make(const SynthOptions& options, const Job& job, const SynthFolder
   if (!there) return there.error();
   kept += folder != nullptr && *there ? 1 : 0;
   if (*there && shown == nullptr) return {};
-  auto frame = synth::make_frame(options.split, options.part, options.seed, job.index,
-                                 {.frame = job.frame, .matched = options.matched});
+  auto frame =
+      synth::make_frame(options.split, options.part, options.seed, job.index,
+                        {.frame = job.frame, .matched = options.matched, .cords = options.cords});
   if (!frame) return frame.error();
   if (!*there) {
     if (auto saved = folder->save(*frame); !saved) return saved;
@@ -215,6 +217,9 @@ void add_synth_command(CLI::App& app, support::ExitCode& exit_code) {
   command->add_flag("--matched", options->matched,
                     "Depth of stereo cameras by matching two infrared pictures, not by a model of "
                     "their noise; takes a few seconds a scene");
+  command->add_flag("--cords", options->cords,
+                    "Ropes laid of strands, speckled, striped or banded, in any colours, not tubes "
+                    "in five colours; rendered splits");
   command->add_option("--scenario", options->scenario, "Scenes of one group only")
       ->type_name("NAME");
   command

@@ -34,6 +34,9 @@ constexpr std::uint64_t kFirstMatched = kFirstUntrained + 2 * kApart;
 constexpr const char* kRings =
     "rings";  // a split of the rings among scenes of several ropes, alone
 constexpr std::uint64_t kFirstRing = kFirstUntrained + 3 * kApart;
+// A split of `wide` scenes, others again, whose ropes are laid of strands and of any colours.
+constexpr const char* kCords = "cords";
+constexpr std::uint64_t kFirstCords = kFirstUntrained + 4 * kApart;
 constexpr int kPixels = 1280 * 720;
 
 /// Scenes of another kind, one on so many of the split.
@@ -44,11 +47,12 @@ struct Extra {
   std::uint64_t first = 0;
 };
 
-constexpr std::array<Extra, 6> kExtras{{{"thesis", 4, false},
+constexpr std::array<Extra, 7> kExtras{{{"thesis", 4, false},
                                         {"drawn", 4, true},
                                         {"several", 8, true},
                                         {kPairs, 8, true},
                                         {kMatched, 3, false, kFirstMatched},
+                                        {kCords, 3, true, kFirstCords},
                                         {kRings, 2, true, kFirstRing}}};
 
 /// Scenes of one split and part, with or without the model.
@@ -145,8 +149,10 @@ MaybeFrame frame_of(const SampleOrigin& origin, std::uint64_t index, bool color)
   if (origin.split == kPairs) return pair_of(part, index, color);
   if (origin.split == kRings) return ring_of(part, index, color);
   const bool matched = origin.split == kMatched;
-  auto scene = synth::frame_at(matched ? synth::Split::kWide : *synth::split_of(origin.split), part,
-                               index, {.color = color, .matched = matched});
+  const bool cords = origin.split == kCords;
+  auto scene =
+      synth::frame_at(matched || cords ? synth::Split::kWide : *synth::split_of(origin.split), part,
+                      index, {.color = color, .matched = matched, .cords = cords});
   if (!scene) return scene.error();
   return std::optional(*std::move(scene));
 }

@@ -57,7 +57,9 @@ enum class Source { kWide, kSeveral, kDrawn };
 Result<synth::SyntheticFrame> scene_of(Source source, std::uint64_t index) {
   if (source == Source::kDrawn) return strand::drawn_training_frame(0, index);
   const auto split = source == Source::kWide ? synth::Split::kWide : synth::Split::kSeveral;
-  return synth::make_frame(split, synth::Part::kTraining, 0, index, {.dense = true});
+  synth::Render render = strand::render_of(index);
+  render.dense = true;
+  return synth::make_frame(split, synth::Part::kTraining, 0, index, render);
 }
 
 /// None of a scene that teaches nothing: a ring that is read as one rope has no ends.

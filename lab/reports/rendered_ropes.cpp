@@ -56,8 +56,9 @@ std::optional<SeenRope> seen_rope(const strand::Strand& strand, const synth::Tru
 }  // namespace
 
 Result<std::optional<RenderedRopes>> rendered_ropes(synth::Split split, synth::Part part,
-                                                    std::uint64_t index) {
+                                                    std::uint64_t index, bool cords) {
   synth::Render render;
+  render.cords = cords;
   render.dense = true;
   auto frame = synth::make_frame(split, part, 0, index, render);
   if (!frame) return frame.error();

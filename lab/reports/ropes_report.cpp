@@ -45,6 +45,7 @@ struct Options {
   bool labels = false;
   bool counted = false;
   bool photograph = false;
+  bool cords = false;
   std::string weights;
   std::string field;
   std::string overlays;
@@ -309,7 +310,8 @@ Result<void> add_rendered(const Options& options, Report& report) {
   int passed_over = 0;
   for (int i = 0; i < options.rendered_scenes; ++i) {
     const std::uint64_t index = options.rendered_first + static_cast<std::uint64_t>(i);
-    const auto made = rendered_ropes(*split, *synth::part_of(options.rendered), index);
+    const auto made =
+        rendered_ropes(*split, *synth::part_of(options.rendered), index, options.cords);
     if (!made) return made.error();
     if (!*made) {
       ++passed_over;
@@ -387,6 +389,8 @@ void add_ropes_report(CLI::App& program, support::ExitCode& exit_code) {
       ->capture_default_str();
   app.add_flag("--labels", options->labels, "Frame::instances are given");
   app.add_flag("--counted", options->counted, "The number of ropes is given");
+  app.add_flag("--cords", options->cords,
+               "Rendered ropes are laid of strands, speckled, striped or banded, in any colours");
   app.add_flag("--photograph", options->photograph,
                "One depth everywhere, as who has a photograph alone makes a frame of it");
   app.add_option("--weights", options->weights,

@@ -345,11 +345,10 @@ std::vector<Strand> strands_of(const synth::SyntheticFrame& frame) {
 
 Result<std::vector<Patch>> patches_of(synth::Split split, synth::Part part, std::uint64_t seed,
                                       std::uint64_t index, const PatchConfig& config,
-                                      bool matched) {
+                                      const synth::Render& as) {
   Cutter cutter(config, seed, index);
-  synth::Render render;
+  synth::Render render = as;
   render.dense = true;
-  render.matched = matched;
   render.windows = [&](const synth::SyntheticFrame& frame) { return cutter.choose(frame); };
   const auto frame = synth::make_frame(split, part, seed, index, render);
   if (!frame) return frame.error();

@@ -57,12 +57,12 @@ struct PatchConfig {
   double hidden_share = 0;   ///< around places where a strand goes behind another thing: no ends
 };
 
-/// A frame of `index`, and patches of it. `matched`: with depth as a stereo camera matches it,
-/// where the scene has one. Deterministic. Fails as synth::make_frame does.
+/// A frame of `index`, and patches of it. `as` says of what kind its ropes and its depth are; what
+/// else it says is not looked at. Deterministic. Fails as synth::make_frame does.
 [[nodiscard]] Result<std::vector<Patch>> patches_of(synth::Split split, synth::Part part,
                                                     std::uint64_t seed, std::uint64_t index,
                                                     const PatchConfig& config = {},
-                                                    bool matched = false);
+                                                    const synth::Render& as = {});
 
 /// A plain drawn frame of the training part: every other one's is of a single rope, the others' of
 /// two to five. With dense truth. Deterministic.

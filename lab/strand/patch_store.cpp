@@ -78,15 +78,17 @@ Result<std::vector<Patch>> patches_of(const DataConfig& config, std::uint64_t sc
   if (synth::evenly_spread(config.drawn, scene)) {
     return drawn_patches_of(config.seed, scene, config.patch);
   }
+  synth::Render as;
+  as.cords = synth::evenly_spread(config.cords, scene);
   if (synth::evenly_spread(config.touching, scene)) {
     const std::uint64_t seed = config.seed + 1;  // other scenes than the rest
     return patches_of(synth::Split::kWide, synth::Part::kTraining, seed,
-                      touching_index(seed, scene), config.patch);
+                      touching_index(seed, scene), config.patch, as);
   }
+  as.matched = synth::evenly_spread(config.matched, scene);
   const auto split =
       synth::evenly_spread(config.several, scene) ? synth::Split::kSeveral : synth::Split::kWide;
-  return patches_of(split, synth::Part::kTraining, config.seed, scene, config.patch,
-                    synth::evenly_spread(config.matched, scene));
+  return patches_of(split, synth::Part::kTraining, config.seed, scene, config.patch, as);
 }
 
 Result<std::vector<survey::Bytes>> packed_patches(const DataConfig& config, std::uint64_t scene) {

@@ -22,6 +22,7 @@ struct DataConfig {
   double drawn = 0;             ///< likewise, that are drawn by a plain z-buffer, not rendered
   double touching = 0;          ///< likewise, that show a ring whose ends touch
   double matched = 0;           ///< likewise, whose stereo camera matches two infrared pictures
+  double cords = 0;             ///< likewise, whose ropes are as synth::Render::cords has them
   PatchConfig patch;
 };
 

@@ -23,6 +23,7 @@ void visit(Visitor& visitor, Recipe& recipe) {
     v.real("drawn", recipe.data.drawn, 0, 1);
     v.real("touching", recipe.data.touching, 0, 1);
     v.real("matched", recipe.data.matched, 0, 1);
+    v.real("cords", recipe.data.cords, 0, 1);
     v.group("patch", [&](Visitor& inside) {
       PatchConfig& patch = recipe.data.patch;
       inside.whole("each", patch.each, 1, 100);

@@ -28,7 +28,8 @@ enum class Use : std::uint8_t {
   kSensor,
   kMask,
   kLook,
-  kInfrared
+  kInfrared,
+  kCord
 };
 
 class Dice {

@@ -112,6 +112,16 @@ std::vector<bool> within(std::span<const Window> windows, const View& view) {
   return wanted;
 }
 
+/// `across` as carried_across has it.
+CordPlace place_on(const Curve& curve, const std::vector<Vector3d>& across, const Surface& seen,
+                   const Vector3f& point, double radius_m) {
+  const auto i = std::min(curve.points.size() - 2, static_cast<std::size_t>(seen.along));
+  const Vector3d tangent = (curve.points[i + 1] - curve.points[i]).normalized();
+  const Vector3d out = point.cast<double>() - curve.points[i];
+  return {seen.strand, static_cast<double>(seen.along) * curve.step_m / radius_m,
+          std::atan2(out.dot(tangent.cross(across[i])), out.dot(across[i]))};
+}
+
 std::uint8_t byte(float value) {
   return static_cast<std::uint8_t>(std::clamp(value, 0.0F, 255.0F) + 0.5F * (value < 254.0F));
 }
@@ -150,6 +160,10 @@ std::vector<std::uint8_t> colored(const View& view, const Tracer& tracer, const 
     return Vector3f((static_cast<float>(pixel % width) - view.camera.cx) / view.camera.fx,
                     (static_cast<float>(pixel / width) - view.camera.cy) / view.camera.fy, 1);
   };
+  std::vector<std::vector<Vector3d>> across(ropes.size());
+  for (std::size_t k = 0; k < ropes.size(); ++k) {
+    if (ropes[k].cord) across[k] = carried_across(view.curves[k]);
+  }
   std::vector<Vector3f> image(pixels, Vector3f::Constant(25));
   std::vector<bool> wanted = within(windows, view);
   for (const Surface& seen : picture.surfaces) {
@@ -157,6 +171,14 @@ std::vector<std::uint8_t> colored(const View& view, const Tracer& tracer, const 
     wanted[seen.pixel] = false;  // done
     const Vector3f point = seen.z_m * ray_of(seen.pixel);
     const bool rope = seen.thing == kRopeThing;
+    if (rope && ropes[seen.rope].cord) {
+      const Cord& cord = *ropes[seen.rope].cord;
+      const CordPlace place = place_on(view.curves[seen.rope], across[seen.rope], seen, point,
+                                       ropes[seen.rope].radius_m);
+      image[seen.pixel] =
+          shader.shade(color_at(cord, place), point, seen.normal, static_cast<float>(cord.gloss));
+      continue;
+    }
     Vector3f albedo =
         (rope ? materials[seen.rope]->color_bgr : things[seen.thing].color_bgr).cast<float>();
     if (rope) albedo *= braid(view.curves[seen.rope], seen, point, ropes[seen.rope].radius_m);

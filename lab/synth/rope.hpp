@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "synth/cord.hpp"
 #include "synth/curve.hpp"
 #include "synth/dice.hpp"
 
@@ -20,6 +21,7 @@ struct Rope {
   bool coil = false;
   bool square_ends = false;  ///< cut square; otherwise round caps reach a radius beyond the curve
   bool closed = false;       ///< a ring: the curve's last point is its first
+  std::optional<Cord> cord = std::nullopt;  ///< none: a tube in one of the thesis' materials
 };
 
 /// The ropes of a scene, longest first; all lie on the table, or all hang.

@@ -27,10 +27,12 @@ constexpr int kStagings = 6;             // of what stands around a rope
 constexpr double kLeastVisible = 0.55;   // share of the rope that its occluders leave
 constexpr double kLeastOfSeveral = 0.3;  // share of each, of several that may leave the image
 constexpr int kLeastPixels = 120;        // of rope
+constexpr HsvBand kAnyColor = {{0, 0, 0}, {180, 255, 255}};
 
 // Everything before the first ray.
 struct Stage {
-  bool ring_alone = false;  // as Render has it
+  bool cords = false;       // as Render has it
+  bool ring_alone = false;  // likewise
   Ropes ropes;
   View view;
   Faults faults;
@@ -80,6 +82,15 @@ bool set_up_several(std::string_view scenario, Dice& dice, Dice& views, Stage& s
   if (ropes->empty()) return false;
   const bool near = scenario == "ropes-leaving";
   return set_up_view(*std::move(ropes), near ? try_near_view : try_wide_view, views, stage);
+}
+
+// Half of all sets are ropes of one kind, as a workshop has them.
+void draw_cords(Dice dice, Ropes& ropes) {
+  const Cord all = draw_cord(dice);
+  const bool alike = dice.chance(0.5);
+  for (std::size_t k = 0; k < ropes.size(); ++k) {
+    ropes[k].cord = k == 0 || alike ? all : draw_cord(dice);
+  }
 }
 
 void furnish(Stage& stage, Dice& dice) {
@@ -166,8 +177,9 @@ SyntheticFrame drawn(const SceneKey& key, const Render& render) {
 
 void describe(const Stage& stage, const Material& material, Meta& meta) {
   meta.ropes = static_cast<int>(stage.ropes.size());
-  meta.material = material.name;
-  meta.band = material.band;
+  const bool cord = stage.ropes.front().cord.has_value();
+  meta.material = cord ? "cord" : material.name;
+  meta.band = cord ? kAnyColor : material.band;
   meta.hanging = stage.ropes.front().hanging;
   meta.square_ends = stage.ropes.front().square_ends;
   meta.camera = stage.view.sensor->name;
@@ -178,9 +190,10 @@ void describe(const Stage& stage, const Material& material, Meta& meta) {
 // A scene of a key: the ropes, their view and things, and the ideal picture of them.
 class Scene {
  public:
-  Scene(const SceneKey& key, std::string_view scenario, bool ring_alone)
+  Scene(const SceneKey& key, std::string_view scenario, const Render& render)
       : key_(key), look_(key, Use::kLook), scenario_(scenario) {
-    stage_.ring_alone = ring_alone;
+    stage_.cords = render.cords;
+    stage_.ring_alone = render.ring_alone;
   }
 
   Result<void> set_up();
@@ -208,6 +221,7 @@ Result<bool> Scene::stage_once(Dice& ropes, Dice& views, Dice& dice) {
                       : key_.split == Split::kSeveral ? set_up_several
                                                       : set_up_wide;
   if (!set_up(scenario_, ropes, views, stage_)) return false;
+  if (stage_.cords) draw_cords(Dice(key_, Use::kCord), stage_.ropes);
   stage_.faults = {};
   if (!thesis) stage_.faults = draw_faults(stage_.ropes, stage_.view, material_->dark, dice);
   for (int k = 0; k < kStagings; ++k) {
@@ -325,7 +339,7 @@ Result<SyntheticFrame> make_frame(Split split, Part part, std::uint64_t seed, st
   if (const auto good = check(split, part, index, render.frame); !good) return good.error();
   const SceneKey key{split, part, seed, index};
   if (split == Split::kDrawn) return drawn(key, render);
-  Scene scene(key, scenario_of(key), render.ring_alone);
+  Scene scene(key, scenario_of(key), render);
   if (const auto ready = scene.set_up(); !ready) return ready.error();
   return scene.taken(render);
 }

@@ -68,8 +68,9 @@ struct Defects {
 struct Meta {
   std::string scenario;  ///< one of scenarios()
   int ropes = 1;         ///< all else here is of the first, which is the longest
-  std::string material;  ///< "blue", "red", "green", "cyan-green", "dark-gray"
-  HsvBand band;          ///< holds the rope's colour where it is lit
+  std::string
+      material;  ///< "blue", "red", "green", "cyan-green", "dark-gray"; "cord" with Render::cords
+  HsvBand band;  ///< holds the rope's colour where it is lit
   double radius_m = 0;
   double length_m = 0;
   double least_bend_radius_m = 0;  ///< of the centerline
@@ -154,9 +155,11 @@ struct Render {
   bool color = true;  ///< false: color_bgr stays empty, for training records; all else is the same
   int frame = 0;      ///< of this static scene; others differ in sensor noise and light alone.
                       ///< 0 plays the role of the thesis' representative frame 50, Sec. 4.1.1
-  bool matched = false;     ///< a stereo camera's depth by matching two infrared pictures, as such
-                            ///< cameras do (stereo_pair.hpp), not by a model of their noise
-  bool dense = false;       ///< fill SyntheticFrame::dense
+  bool matched = false;  ///< a stereo camera's depth by matching two infrared pictures, as such
+                         ///< cameras do (stereo_pair.hpp), not by a model of their noise
+  bool dense = false;    ///< fill SyntheticFrame::dense
+  bool cords = false;    ///< ropes are laid of strands, and of any colours (cord.hpp), in place of
+                         ///< tubes in the thesis' materials
   bool ring_alone = false;  ///< of a scene of several ropes ("ropes-ring") its ring, and no other
   /// The only parts that get colours, of a frame that has all but these; the rest stays black.
   /// Colours take most of a frame's time. Empty: everything.

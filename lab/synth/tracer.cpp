@@ -44,25 +44,24 @@ unsigned* indices(RTCGeometry geometry, RTCFormat format, std::size_t each, std:
 // Cones between every second sample: the chord of a bend of four radii is off by 0.03 radii, and a
 // ray meets a cone in a third of the time that a cubic takes.
 // A cone ends in a ball, except towards a neighbour: beyond a square end stands one without a cone.
-bool add_rope(RTCDevice device, RTCScene scene, const Curve& curve, const Rope& rope) {
-  const auto& points = curve.points;
-  const std::size_t spans = (points.size() - 1) / kStride;
+bool add_strand(RTCDevice device, RTCScene scene, const std::vector<Vector3d>& points,
+                std::size_t stride, double radius_m, bool square_ends) {
+  const std::size_t spans = (points.size() - 1) / stride;
   const embree::Geometry geometry(rtcNewGeometry(device, RTC_GEOMETRY_TYPE_ROUND_LINEAR_CURVE));
   float* vertex = vertices(geometry.get(), RTC_FORMAT_FLOAT4, 4, spans + 3);
   unsigned* index = indices(geometry.get(), RTC_FORMAT_UINT, 1, spans);
   auto* flags = static_cast<std::uint8_t*>(rtcSetNewGeometryBuffer(
       geometry.get(), RTC_BUFFER_TYPE_FLAGS, 0, RTC_FORMAT_UCHAR, sizeof(std::uint8_t), spans));
   if (vertex == nullptr || index == nullptr || flags == nullptr) return false;
-  put(vertex, 2 * points.front() - points[kStride], rope.radius_m);
+  put(vertex, 2 * points.front() - points[stride], radius_m);
   for (std::size_t i = 0; i <= spans; ++i) {
-    put(vertex + 4 * (i + 1), points[i * kStride], rope.radius_m);
+    put(vertex + 4 * (i + 1), points[i * stride], radius_m);
   }
-  put(vertex + 4 * (spans + 2), 2 * points.back() - points[points.size() - 1 - kStride],
-      rope.radius_m);
+  put(vertex + 4 * (spans + 2), 2 * points.back() - points[points.size() - 1 - stride], radius_m);
   for (std::size_t i = 0; i < spans; ++i) {
     index[i] = static_cast<unsigned>(i + 1);
-    const bool left = i > 0 || rope.square_ends;
-    const bool right = i + 1 < spans || rope.square_ends;
+    const bool left = i > 0 || square_ends;
+    const bool right = i + 1 < spans || square_ends;
     flags[i] = static_cast<std::uint8_t>((left ? RTC_CURVE_FLAG_NEIGHBOR_LEFT : 0) |
                                          (right ? RTC_CURVE_FLAG_NEIGHBOR_RIGHT : 0));
   }
@@ -175,6 +174,8 @@ struct Source {
   std::uint16_t thing = 0;
   std::uint16_t rope = 0;
   bool ends = false;  // of a rope: the discs that close it
+  std::uint8_t strand = 0;
+  std::size_t stride = kStride;  // of the curve's samples, from cone to cone
 };
 
 }  // namespace
@@ -185,10 +186,11 @@ struct Tracer::Impl {
   embree::Scene scene;
   Blocks blocks;
   std::vector<Source> sources;
+  std::vector<std::vector<std::vector<Vector3d>>> axes;  // of each strand of each rope
 
   // The cones' normals would show their edges; away from the axis is smooth.
   [[nodiscard]] Vector3f round_normal(const Surface& seen, const Vector3f& ray) const {
-    const auto& points = view->curves[seen.rope].points;
+    const auto& points = axes[seen.rope][seen.strand];
     const auto i = std::min(points.size() - 2, static_cast<std::size_t>(seen.along));
     const double t = seen.along - static_cast<double>(i);
     const Vector3f axis = ((1 - t) * points[i] + t * points[i + 1]).cast<float>();
@@ -203,6 +205,7 @@ struct Tracer::Impl {
     const Source& source = sources[rays.hit.geomID[k]];
     surface.thing = source.thing;
     surface.rope = source.rope;
+    surface.strand = source.strand;
     surface.z_m = rays.ray.tfar[k];
     surface.normal = Vector3f(rays.hit.Ng_x[k], rays.hit.Ng_y[k], rays.hit.Ng_z[k]).normalized();
     const Vector3f ray(rays.ray.dir_x[k], rays.ray.dir_y[k], 1);
@@ -210,7 +213,7 @@ struct Tracer::Impl {
     if (surface.thing != kRopeThing) return surface;
     const auto primitive = static_cast<float>(rays.hit.primID[k]);
     if (!source.ends) {
-      surface.along = (primitive + rays.hit.u[k]) * static_cast<float>(kStride);
+      surface.along = (primitive + rays.hit.u[k]) * static_cast<float>(source.stride);
       surface.normal = round_normal(surface, ray);
     } else {
       const auto last = static_cast<float>(view->curves[source.rope].points.size() - 1);
@@ -235,10 +238,18 @@ Result<Tracer> Tracer::create(const View& view, std::span<const Rope> ropes,
   bool made = true;
   for (std::size_t k = 0; made && k < ropes.size(); ++k) {
     const auto number = static_cast<std::uint16_t>(k);
-    made = made && add_rope(device, scene, view.curves[k], ropes[k]);
-    impl->sources.push_back({kRopeThing, number, false});
-    if (!ropes[k].square_ends) continue;
-    made = made && add_ends(device, scene, view.curves[k], ropes[k].radius_m);
+    const Rope& rope = ropes[k];
+    const bool laid = rope.cord && rope.cord->strands > 1;
+    impl->axes.push_back(strand_axes(rope.cord.value_or(Cord()), view.curves[k], rope.radius_m));
+    const double radius_m = rope.radius_m * (laid ? rope.cord->strand_radii() : 1);
+    const std::size_t stride = laid ? 1 : kStride;
+    for (const auto& axis : impl->axes.back()) {
+      const auto strand = static_cast<std::uint8_t>(&axis - impl->axes.back().data());
+      made = made && add_strand(device, scene, axis, stride, radius_m, rope.square_ends && !laid);
+      impl->sources.push_back({kRopeThing, number, false, strand, stride});
+    }
+    if (!rope.square_ends || laid) continue;
+    made = made && add_ends(device, scene, view.curves[k], rope.radius_m);
     impl->sources.push_back({kRopeThing, number, true});
   }
   for (std::size_t i = 0; made && i < things.size(); ++i) {

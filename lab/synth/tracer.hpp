@@ -19,9 +19,10 @@ struct Surface {
   std::uint32_t pixel = 0;
   std::uint16_t thing = 0;  ///< index, or kRopeThing
   float z_m = 0;
-  std::uint16_t rope = 0;  ///< of kRopeThing: which one
-  float along = 0;         ///< of the rope: samples of its curve
-  Eigen::Vector3f normal;  ///< unit, towards the camera
+  std::uint16_t rope = 0;   ///< of kRopeThing: which one
+  std::uint8_t strand = 0;  ///< of a rope laid of several: which one
+  float along = 0;          ///< of the rope: samples of its curve
+  Eigen::Vector3f normal;   ///< unit, towards the camera
 };
 
 /// An ideal camera's picture.
