@@ -8,7 +8,9 @@
 
 #include "estimator/candidates.hpp"
 #include "estimator/conditions.hpp"
+#include "estimator/parted.hpp"
 #include "estimator/refinement.hpp"
+#include "estimator/rope_views.hpp"
 #include "estimator/second_look.hpp"
 #include "estimator/see_axes.hpp"
 #include "eval/metrics.hpp"
@@ -49,6 +51,29 @@ struct Line {
   }
 };
 
+/// Puts both ends of a hypothesis among the samples, where they are an end of `rope` and it is
+/// about right.
+void add_ends(const gate::Candidate& hypothesis, const Centerline& rope, std::uint64_t index,
+              const Frame& frame, const field::FieldView& seen, std::vector<TipSample>& samples) {
+  if (hypothesis.ring != 0 || !(hypothesis.radius_m > 0)) return;
+  const eval::Score score = eval::score(hypothesis.nodes, rope);
+  if (!(score.either_index_m < kAboutRight_m)) return;
+  const Centerline truth = eval::turned(rope, score);
+  const auto radius_m = static_cast<double>(hypothesis.radius_m);
+  const double near_m = kNearRadii * radius_m + kNear_m;
+  const refine::Curve curve = estimator::curve_of(hypothesis);
+  for (const bool last : {false, true}) {
+    const auto beyond =
+        last ? beyond_m(eval::reversed(hypothesis.nodes), eval::reversed(truth), near_m)
+             : beyond_m(hypothesis.nodes, truth, near_m);
+    if (!beyond) continue;
+    samples.push_back({index,
+                       {},
+                       refine::tip_features(curve, last, frame, seen),
+                       static_cast<float>(*beyond / (2 * radius_m))});
+  }
+}
+
 }  // namespace
 
 std::optional<double> beyond_m(const Centerline& nodes, const Centerline& truth, double near_m) {
@@ -72,26 +97,37 @@ std::vector<TipSample> samples_of(const synth::SyntheticFrame& scene, field::Net
   if (!conditions || !conditions->seen) return {};
   const auto look = estimator::first_look(*conditions, frame);
   std::vector<TipSample> samples;
-  for (const auto& candidate :
+  for (const auto& hypothesis :
        estimator::list_candidates(look, conditions->paths.rope_width_px, {}, {}, {}, frame, 0)) {
-    if (candidate.ring != 0 || !(candidate.radius_m > 0)) continue;
-    Centerline truth = scene.truth();
-    if (eval::index_error_m(candidate.nodes, eval::reversed(truth)) <
-        eval::index_error_m(candidate.nodes, truth)) {
-      truth = eval::reversed(truth);
-    }
-    if (!(eval::index_error_m(candidate.nodes, truth) < kAboutRight_m)) continue;
-    const auto radius_m = static_cast<double>(candidate.radius_m);
-    const refine::Curve curve = estimator::curve_of(candidate);
-    for (const bool last : {false, true}) {
-      const auto beyond = last ? beyond_m(eval::reversed(candidate.nodes), eval::reversed(truth),
-                                          kNearRadii * radius_m + kNear_m)
-                               : beyond_m(candidate.nodes, truth, kNearRadii * radius_m + kNear_m);
-      if (!beyond) continue;
-      samples.push_back({scene.meta.index,
-                         {},
-                         refine::tip_features(curve, last, frame, *look.seen),
-                         static_cast<float>(*beyond / (2 * radius_m))});
+    add_ends(hypothesis, scene.truth(), scene.meta.index, frame, *look.seen, samples);
+  }
+  return samples;
+}
+
+std::vector<TipSample> samples_of_ropes(const synth::SyntheticFrame& scene,
+                                        field::Network& network) {
+  Frame frame = scene.frame();
+  frame.instances = {};
+  const auto parted = estimator::part_ropes(frame, 0, estimator::seen_by(&network, frame, true));
+  if (!parted || !parted->seen) return {};
+  std::vector<TipSample> samples;
+  for (std::size_t i = 0; i < parted->paths.ropes.size(); ++i) {
+    if (parted->paths.ropes[i].closed) continue;
+    const estimator::RopeView view(*parted, i, frame);
+    const Frame own = view.frame();
+    const estimator::Traced traced = view.traced();
+    Timings timings;
+    const auto conditions = estimator::gather(own, {}, timings, &traced);
+    if (!conditions) continue;
+    const auto look = estimator::first_look(*conditions, own);
+    if (!look.seen) continue;
+    const auto hypotheses =
+        estimator::list_candidates(look, conditions->paths.rope_width_px, {}, {}, {}, own, 0);
+    for (const synth::TrueRope& rope : scene.ropes) {
+      if (rope.closed) continue;
+      for (const auto& hypothesis : hypotheses) {
+        add_ends(hypothesis, rope.nodes, scene.meta.index, own, *look.seen, samples);
+      }
     }
   }
   return samples;

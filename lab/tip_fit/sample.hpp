@@ -32,4 +32,8 @@ struct TipSample {
 [[nodiscard]] std::vector<TipSample> samples_of(const synth::SyntheticFrame& scene,
                                                 field::Network& network);
 
+/// The same of each rope that is told apart in a scene of several, in its own view.
+[[nodiscard]] std::vector<TipSample> samples_of_ropes(const synth::SyntheticFrame& scene,
+                                                      field::Network& network);
+
 }  // namespace flowdlo::lab

@@ -8,9 +8,12 @@
 
 #include "strand/scene_range.hpp"
 #include "synth/drawn_frame.hpp"
+#include "synth/synthetic_frame.hpp"
 
 namespace flowdlo::lab {
 namespace {
+
+constexpr std::uint64_t kCrossingRopes = 105;  // two that cross in plain sight
 
 /// An arc of a tenth of a metre's radius between two angles.
 Centerline arc(float from, float to) {
@@ -44,6 +47,21 @@ TEST(TipSamples, OfADrawnRopeBothEndsLieNearItsTips) {
     EXPECT_LT(std::abs(sample.beyond_widths), 1);
     EXPECT_EQ(sample.features[refine::kTipOne], 1);
     EXPECT_GT(sample.features[refine::kTipAhead], 0.3F);  // in plain sight
+  }
+}
+
+TEST(TipSamples, OfSeveralRopesEachsEndsLieNearItsTips) {
+  auto network = strand::one_network(FLOWDLO_FIELD_WEIGHTS);
+  ASSERT_TRUE(network);
+  const auto scene =
+      synth::make_frame(synth::Split::kSeveral, synth::Part::kTraining, 0, kCrossingRopes);
+  ASSERT_TRUE(scene);
+  ASSERT_GE(scene->ropes.size(), 2U);
+  const auto samples = samples_of_ropes(*scene, *network);
+  ASSERT_GE(samples.size(), 2 * scene->ropes.size() - 1);
+  for (const TipSample& sample : samples) {
+    EXPECT_EQ(sample.index, kCrossingRopes);
+    EXPECT_LT(std::abs(sample.beyond_widths), 4);
   }
 }
 
