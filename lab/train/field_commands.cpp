@@ -40,7 +40,7 @@ struct LookArguments {
 struct ExportArguments {
   std::filesystem::path folder;
   std::filesystem::path file;
-  std::filesystem::path refine;
+  std::filesystem::path beside;
 };
 
 struct FieldArguments {
@@ -120,16 +120,13 @@ int export_field(const ExportArguments& arguments) {
   const auto state = strand::load_checkpoint(arguments.folder / "checkpoint.pt", torch::kCPU);
   if (!state) return failed(state.error());
   auto field = strand::exported(*state, fmt::format("{}; step {}", state->command, state->step));
-  if (!arguments.refine.empty()) {
-    auto other = weights::load_field(arguments.refine);
+  if (!arguments.beside.empty()) {
+    auto other = weights::load_field(arguments.beside);
     if (!other) return failed(other.error());
-    if (!other->refine) {
-      return failed({ErrorCode::kBadInput,
-                     fmt::format("{}: expected the network that refines beside the strand field, "
-                                 "got the field alone; name another file, or leave --refine out",
-                                 arguments.refine.string())});
-    }
     field.refine = std::move(other->refine);
+    field.links = std::move(other->links);
+    field.tips = std::move(other->tips);
+    field.calibration = std::move(other->calibration);
   }
   const auto saved = weights::save_field(field, arguments.file);
   if (!saved) return failed(saved.error());
@@ -219,8 +216,8 @@ void add_field_commands(CLI::App& app, int argc, char** argv, int& exit_code) {
   auto* write = app.add_subcommand("field-export", "A checkpoint as the engine reads it");
   write->add_option("folder", out->folder, "Folder of the checkpoint")->required();
   write->add_option("file", out->file, ".safetensors to write")->required();
-  write->add_option("--refine", out->refine,
-                    "Exported .safetensors whose network that refines is taken over");
+  write->add_option("--beside", out->beside,
+                    "Exported .safetensors whose other networks and calibration are taken over");
   write->callback([out, &exit_code] { exit_code = export_field(*out); });
 
   auto arguments = std::make_shared<FieldArguments>();
