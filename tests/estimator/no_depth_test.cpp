@@ -48,7 +48,8 @@ TEST_P(NoDepth, OfARopeOnATableIsTakenFromTheTable) {
   ASSERT_TRUE(hidden) << hidden.error().message;
   EXPECT_THAT(shown->one_rope.doubts, Not(Contains(Doubt::kNoDepth)));
   EXPECT_THAT(hidden->one_rope.doubts, ElementsAre(Doubt::kNoDepth));
-  EXPECT_LT(geometry::mean_distance(hidden->nodes, shown->nodes), 0.6F * kRadius_m);
+  // Where nothing of the rope is measured, its axis is known to a radius.
+  EXPECT_LT(geometry::mean_distance(hidden->nodes, shown->nodes), kRadius_m);
   EXPECT_LE(hidden->confidence, 0.25F);
   EXPECT_GT(shown->confidence, 0.25F);
   EXPECT_THAT(hidden->support, Each(0));
