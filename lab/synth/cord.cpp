@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -103,18 +104,19 @@ std::vector<std::vector<Vector3d>> strand_axes(const Cord& cord, const Curve& cu
   return axes;
 }
 
+double weave(double along_radii, double angle_rad) {
+  return std::sin(along_radii * 1.6 + 3 * angle_rad) * std::sin(along_radii * 1.6 - 3 * angle_rad);
+}
+
 Eigen::Vector3f color_at(const Cord& cord, const CordPlace& place) {
   const double along = place.along_radii;
   double other = 0;
   double light = 1;
   if (cord.strands > 1) other = place.strand < cord.others ? 1 : 0;
   switch (cord.pattern) {
-    case Pattern::kBraid: {
-      const double weave =
-          std::sin(along * 1.6 + 3 * place.angle_rad) * std::sin(along * 1.6 - 3 * place.angle_rad);
-      light += cord.depth * weave;
+    case Pattern::kBraid:
+      light += cord.depth * weave(along, place.angle_rad);
       break;
-    }
     case Pattern::kTracers: {
       const double turned =
           fraction((place.angle_rad - cord.wound(0, along)) / kTurn * cord.others);

@@ -56,6 +56,9 @@ struct CordPlace {
 
 [[nodiscard]] Eigen::Vector3f color_at(const Cord& cord, const CordPlace& place);
 
+/// How two sets of yarns that wind around a rope either way show at a place of it, [-1, 1].
+[[nodiscard]] double weave(double along_radii, double angle_rad);
+
 /// The first of two unit vectors across each of the curve's points, carried along without a turn;
 /// the other one is the tangent's product with it.
 [[nodiscard]] std::vector<Vector3d> carried_across(const Curve& curve);

@@ -136,8 +136,7 @@ float braid(const Curve& curve, const Surface& seen, const Vector3f& point, doub
   const Vector3d out = point.cast<double>() - points[i];
   const double angle = std::atan2(out.dot(tangent.cross(side)), out.dot(side));
   const double turns = static_cast<double>(seen.along) * curve.step_m / radius_m;
-  const double weave = std::sin(turns * 1.6 + 3 * angle) * std::sin(turns * 1.6 - 3 * angle);
-  return 1.0F + 0.12F * static_cast<float>(weave);
+  return 1.0F + 0.12F * static_cast<float>(weave(turns, angle));
 }
 
 const Material& draw_material(Dice& dice) {

@@ -48,8 +48,10 @@ TEST_P(NoDepth, OfARopeOnATableIsTakenFromTheTable) {
   ASSERT_TRUE(hidden) << hidden.error().message;
   EXPECT_THAT(shown->one_rope.doubts, Not(Contains(Doubt::kNoDepth)));
   EXPECT_THAT(hidden->one_rope.doubts, ElementsAre(Doubt::kNoDepth));
-  // Where nothing of the rope is measured, its axis is known to a radius.
-  EXPECT_LT(geometry::mean_distance(hidden->nodes, shown->nodes), kRadius_m);
+  // The networks that move nodes beside a field know an axis of which nothing is measured to a
+  // radius.
+  const float most_radii = GetParam() == FieldChoice::kOff ? 0.6F : 1.0F;
+  EXPECT_LT(geometry::mean_distance(hidden->nodes, shown->nodes), most_radii * kRadius_m);
   EXPECT_LE(hidden->confidence, 0.25F);
   EXPECT_GT(shown->confidence, 0.25F);
   EXPECT_THAT(hidden->support, Each(0));
