@@ -9,6 +9,7 @@
 #include "mat/mat_file.hpp"
 #include "progress_bar.hpp"
 #include "strand/export.hpp"
+#include "strand/mean.hpp"
 #include "strand/patch_store.hpp"
 #include "strand/recipe.hpp"
 #include "strand/sample.hpp"
@@ -39,6 +40,12 @@ struct LookArguments {
 
 struct ExportArguments {
   std::filesystem::path folder;
+  std::filesystem::path file;
+  std::filesystem::path beside;
+};
+
+struct MeanArguments {
+  std::vector<std::filesystem::path> fields;
   std::filesystem::path file;
   std::filesystem::path beside;
 };
@@ -116,21 +123,43 @@ int look_at_samples(const LookArguments& arguments) {
   return written ? 0 : failed(written.error());
 }
 
-int export_field(const ExportArguments& arguments) {
-  const auto state = strand::load_checkpoint(arguments.folder / "checkpoint.pt", torch::kCPU);
-  if (!state) return failed(state.error());
-  auto field = strand::exported(*state, fmt::format("{}; step {}", state->command, state->step));
-  if (!arguments.beside.empty()) {
-    auto other = weights::load_field(arguments.beside);
-    if (!other) return failed(other.error());
+/// Saves a field, with the other networks and the calibration of `beside` unless that is empty.
+Result<void> save_beside(weights::FieldWeights field, const std::filesystem::path& beside,
+                         const std::filesystem::path& file) {
+  if (!beside.empty()) {
+    auto other = weights::load_field(beside);
+    if (!other) return other.error();
     field.refine = std::move(other->refine);
     field.links = std::move(other->links);
     field.tips = std::move(other->tips);
     field.calibration = std::move(other->calibration);
   }
-  const auto saved = weights::save_field(field, arguments.file);
+  return weights::save_field(field, file);
+}
+
+int export_field(const ExportArguments& arguments) {
+  const auto state = strand::load_checkpoint(arguments.folder / "checkpoint.pt", torch::kCPU);
+  if (!state) return failed(state.error());
+  const auto saved =
+      save_beside(strand::exported(*state, fmt::format("{}; step {}", state->command, state->step)),
+                  arguments.beside, arguments.file);
   if (!saved) return failed(saved.error());
   fmt::print("{}: step {}\n", arguments.file.string(), state->step);
+  return 0;
+}
+
+int mean_field(const MeanArguments& arguments) {
+  std::vector<weights::FieldWeights> fields;
+  for (const auto& file : arguments.fields) {
+    auto field = weights::load_field(file);
+    if (!field) return failed(field.error());
+    fields.push_back(std::move(*field));
+  }
+  auto mean = strand::mean_of(fields);
+  if (!mean) return failed(mean.error(), 2);
+  const auto saved = save_beside(std::move(*mean), arguments.beside, arguments.file);
+  if (!saved) return failed(saved.error());
+  fmt::print("{}: mean of {}\n", arguments.file.string(), fields.size());
   return 0;
 }
 
@@ -219,6 +248,15 @@ void add_field_commands(CLI::App& app, int argc, char** argv, int& exit_code) {
   write->add_option("--beside", out->beside,
                     "Exported .safetensors whose other networks and calibration are taken over");
   write->callback([out, &exit_code] { exit_code = export_field(*out); });
+
+  auto several = std::make_shared<MeanArguments>();
+  auto* mean = app.add_subcommand(
+      "field-mean", "The mean of the weights of fields whose runs began with the same ones");
+  mean->add_option("fields", several->fields, "Exported .safetensors")->required();
+  mean->add_option("--out", several->file, ".safetensors to write")->required();
+  mean->add_option("--beside", several->beside,
+                   "Exported .safetensors whose other networks and calibration are taken over");
+  mean->callback([several, &exit_code] { exit_code = mean_field(*several); });
 
   auto arguments = std::make_shared<FieldArguments>();
   arguments->command = "flowdlo-train";
