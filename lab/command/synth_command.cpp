@@ -60,6 +60,12 @@ Result<void> check(const SynthOptions& options) {
   if (options.out.empty() && options.sheet.empty()) {
     return usage("synth: expected OUT, a folder for the frames, or --contact-sheet FILE");
   }
+  if (options.split == synth::Split::kDrawn && (options.matched || options.cords)) {
+    return usage(
+        fmt::format("synth: {}: expected a rendered split, got drawn; drawn scenes have "
+                    "plain tubes and a plain depth",
+                    options.matched ? "--matched" : "--cords"));
+  }
   const auto names = synth::scenarios(options.split);
   const bool known = options.scenario.empty() ||
                      std::find(names.begin(), names.end(), options.scenario) != names.end();
@@ -188,11 +194,14 @@ void add_synth_command(CLI::App& app, support::ExitCode& exit_code) {
   command
       ->add_option("--split", options->split,
                    "thesis (nine groups on a table, clean depth), wide (sensors, occluders, "
-                   "hanging ropes), several (the same with two to nine ropes) or drawn (plain "
+                   "hanging ropes), several (the same with two to nine ropes), tangled (two to six "
+                   "that are looped, "
+                   "coiled and thrown on each other) or drawn (plain "
                    "tubes of eleven kinds) [wide]")
       ->transform(support::choice<synth::Split>({{"thesis", synth::Split::kThesis},
                                                  {"wide", synth::Split::kWide},
                                                  {"several", synth::Split::kSeveral},
+                                                 {"tangled", synth::Split::kTangled},
                                                  {"drawn", synth::Split::kDrawn}}))
       ->type_name("NAME");
   command

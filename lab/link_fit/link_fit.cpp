@@ -35,6 +35,7 @@ constexpr std::uint64_t kAsSeveral = 3;  // and of one rope is read as if there 
 struct Options {
   strand::SceneRange range;
   std::uint64_t several = 0;
+  std::uint64_t tangled = 0;
   std::uint64_t drawn = 0;
   int rounds = 60;
   std::string out;
@@ -52,11 +53,13 @@ void flatten(synth::SyntheticFrame& scene) {
             geometry::median_of(depths_m));
 }
 
-enum class Source { kWide, kSeveral, kDrawn };
+enum class Source { kWide, kSeveral, kTangled, kDrawn };
 
 Result<synth::SyntheticFrame> scene_of(Source source, std::uint64_t index) {
   if (source == Source::kDrawn) return strand::drawn_training_frame(0, index);
-  const auto split = source == Source::kWide ? synth::Split::kWide : synth::Split::kSeveral;
+  const auto split = source == Source::kWide      ? synth::Split::kWide
+                     : source == Source::kSeveral ? synth::Split::kSeveral
+                                                  : synth::Split::kTangled;
   synth::Render render = strand::render_of(index);
   render.dense = true;
   return synth::make_frame(split, synth::Part::kTraining, 0, index, render);
@@ -76,8 +79,11 @@ Result<std::optional<LinkSample>> measure(Source source, std::uint64_t index,
   if ((*labelled)->strands.list.size() > kMostStrands) return std::optional<LinkSample>();
   LinkSample sample = sample_of(**labelled);
   sample.index = index;
-  sample.kind = fmt::format("{} of {}, read as {}", source == Source::kDrawn ? "drawn" : "rendered",
-                            one ? "one rope" : "several ropes", several ? "several" : "one");
+  const char* const made = source == Source::kDrawn     ? "drawn"
+                           : source == Source::kTangled ? "tangled"
+                                                        : "rendered";
+  sample.kind = fmt::format("{} of {}, read as {}", made, one ? "one rope" : "several ropes",
+                            several ? "several" : "one");
   return std::optional(std::move(sample));
 }
 
@@ -91,7 +97,8 @@ Gathered gather(const Options& options) {
   auto range = options.range;
   for (const auto& [source, scenes] :
        {std::pair(Source::kWide, options.range.scenes),
-        std::pair(Source::kSeveral, options.several), std::pair(Source::kDrawn, options.drawn)}) {
+        std::pair(Source::kSeveral, options.several), std::pair(Source::kTangled, options.tangled),
+        std::pair(Source::kDrawn, options.drawn)}) {
     range.scenes = scenes;
     const auto of = source;
     for (auto& sample : strand::over_scenes<std::optional<LinkSample>>(
@@ -133,8 +140,10 @@ int run(const Options& options) {
   print(gathered, links);
   links.notes = fmt::format(
       "flowdlo-lab link-fit, training scenes from {}: {} rendered of one rope, {} of several, {} "
+      "tangled, {} "
       "drawn, three in four of each; {} rounds",
-      options.range.first, options.range.scenes, options.several, options.drawn, options.rounds);
+      options.range.first, options.range.scenes, options.several, options.tangled, options.drawn,
+      options.rounds);
   field->links = std::move(links);
   const auto saved = weights::save_field(*field, options.out);
   return saved ? 0 : survey::failed(saved.error());
@@ -150,6 +159,7 @@ void add_link_fit(CLI::App& program, support::ExitCode& exit_code) {
   strand::add_options(app, options->range);
   app.add_option("--several", options->several,
                  "So many scenes of several ropes as well, from the same on");
+  app.add_option("--tangled", options->tangled, "And so many of several that are looped or coiled");
   app.add_option("--drawn", options->drawn, "And so many drawn ones, half of them of one rope");
   app.add_option("--rounds", options->rounds, "Of the fit over all scenes")
       ->check(CLI::Range(1, 10000))

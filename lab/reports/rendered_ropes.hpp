@@ -16,9 +16,9 @@ struct RenderedRopes {
   RopesScene scene;  ///< of each rope what lies between the first and the last place that shows
 };
 
-/// Scene `index` of that part of `split`, kSeveral or kWide, with `cords` as synth::Render has it;
-/// empty where a rope leaves the image and comes back, so that it is not plain how many there are.
-/// Fails as synth::make_frame does.
+/// Scene `index` of that part of `split`, kSeveral, kTangled or kWide, with `cords` as
+/// synth::Render has it; empty where a rope leaves the image and comes back, so that it is not
+/// plain how many there are. Fails as synth::make_frame does.
 [[nodiscard]] Result<std::optional<RenderedRopes>> rendered_ropes(synth::Split split,
                                                                   synth::Part part,
                                                                   std::uint64_t index,

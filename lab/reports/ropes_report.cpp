@@ -39,7 +39,7 @@ struct Options {
   int most = 5;
   std::string kind;
   std::string rendered = "training";
-  std::string rendered_split = "several";
+  std::vector<std::string> rendered_splits{"several"};
   int rendered_scenes = 0;
   std::uint64_t rendered_first = 0;
   bool labels = false;
@@ -304,14 +304,13 @@ Result<void> add_drawn(const Options& options, Report& report) {
   return {};
 }
 
-Result<void> add_rendered(const Options& options, Report& report) {
-  const auto split = synth::split_of(options.rendered_split);
+Result<void> add_rendered(const Options& options, synth::Split split, Report& report) {
   const bool one = split == synth::Split::kWide;
   int passed_over = 0;
   for (int i = 0; i < options.rendered_scenes; ++i) {
     const std::uint64_t index = options.rendered_first + static_cast<std::uint64_t>(i);
     const auto made =
-        rendered_ropes(*split, *synth::part_of(options.rendered), index, options.cords);
+        rendered_ropes(split, *synth::part_of(options.rendered), index, options.cords);
     if (!made) return made.error();
     if (!*made) {
       ++passed_over;
@@ -337,7 +336,9 @@ int run(const Options& options) {
   }
   Report report(options);
   auto done = add_drawn(options, report);
-  if (done) done = add_rendered(options, report);
+  for (const std::string& name : options.rendered_splits) {
+    if (done) done = add_rendered(options, *synth::split_of(name), report);
+  }
   if (!done) {
     fmt::print(stderr, "{}\n", done.error().message);
     return 2;
@@ -366,9 +367,12 @@ void add_ropes_report(CLI::App& program, support::ExitCode& exit_code) {
   app.add_option("--kind", options->kind, "Of this kind, or rendered scenario, only")
       ->check(CLI::Validator(
           [](const std::string& name) {
-            const auto rendered = synth::scenarios(synth::Split::kSeveral);
-            const bool known = ropes_kind_of(name) ||
-                               std::find(rendered.begin(), rendered.end(), name) != rendered.end();
+            const auto rendered = [&](synth::Split split) {
+              const auto names = synth::scenarios(split);
+              return std::find(names.begin(), names.end(), name) != names.end();
+            };
+            const bool known = ropes_kind_of(name) || rendered(synth::Split::kSeveral) ||
+                               rendered(synth::Split::kTangled);
             return known ? std::string() : "no kind of scene: " + name;
           },
           "KIND"));
@@ -377,10 +381,13 @@ void add_ropes_report(CLI::App& program, support::ExitCode& exit_code) {
       ->capture_default_str()
       ->check(CLI::IsMember({"training", "validation"}))
       ->type_name("PART");
-  app.add_option("--rendered-split", options->rendered_split,
-                 "several, or wide: one rope each, whatever --least and --most say")
+  app.add_option(
+         "--rendered-split", options->rendered_splits,
+         "several, tangled, or wide: one rope each, whatever --least and --most say; or some "
+         "of them, so many scenes of each")
+      ->delimiter(',')
       ->capture_default_str()
-      ->check(CLI::IsMember({"several", "wide"}))
+      ->check(CLI::IsMember({"several", "tangled", "wide"}))
       ->type_name("SPLIT");
   app.add_option("--rendered-scenes", options->rendered_scenes, "How many of them")
       ->capture_default_str()

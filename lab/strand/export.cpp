@@ -125,8 +125,9 @@ weights::FieldWeights exported(const State& state, const std::string& notes) {
   const DataConfig& data = state.recipe.data;
   weights.training_data = fmt::format(
       "flowdlo synth, training part, seed {}, {} scenes: {:.0f} % drawn, of the others {:.0f} % "
-      "several and the rest wide, {:.0f} % with cords",
-      data.seed, data.scenes, 100 * data.drawn, 100 * data.several, 100 * data.cords);
+      "tangled, of those left {:.0f} % several and the rest wide, {:.0f} % with cords",
+      data.seed, data.scenes, 100 * data.drawn, 100 * data.tangled, 100 * data.several,
+      100 * data.cords);
   weights.notes = notes;
   weights.sizes = {config.fine, config.middle, config.coarse};
   Exporter exporter(weights.tensors);

@@ -86,8 +86,9 @@ Result<std::vector<Patch>> patches_of(const DataConfig& config, std::uint64_t sc
                       touching_index(seed, scene), config.patch, as);
   }
   as.matched = synth::evenly_spread(config.matched, scene);
-  const auto split =
-      synth::evenly_spread(config.several, scene) ? synth::Split::kSeveral : synth::Split::kWide;
+  const auto split = synth::evenly_spread(config.tangled, scene)   ? synth::Split::kTangled
+                     : synth::evenly_spread(config.several, scene) ? synth::Split::kSeveral
+                                                                   : synth::Split::kWide;
   return patches_of(split, synth::Part::kTraining, config.seed, scene, config.patch, as);
 }
 

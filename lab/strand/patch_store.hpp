@@ -19,6 +19,7 @@ struct DataConfig {
   std::uint64_t seed = 0;
   std::uint64_t scenes = 8000;  ///< rounded up to whole shards
   double several = 0;           ///< share of them, evenly spread, that show two to nine ropes
+  double tangled = 0;           ///< likewise, that show two to six looped or coiled ones
   double drawn = 0;             ///< likewise, that are drawn by a plain z-buffer, not rendered
   double touching = 0;          ///< likewise, that show a ring whose ends touch
   double matched = 0;           ///< likewise, whose stereo camera matches two infrared pictures

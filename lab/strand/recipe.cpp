@@ -20,6 +20,7 @@ void visit(Visitor& visitor, Recipe& recipe) {
     v.whole("seed", recipe.data.seed, 0, kMany);
     v.whole("scenes", recipe.data.scenes, 1, kMany);
     v.real("several", recipe.data.several, 0, 1);
+    v.real("tangled", recipe.data.tangled, 0, 1);
     v.real("drawn", recipe.data.drawn, 0, 1);
     v.real("touching", recipe.data.touching, 0, 1);
     v.real("matched", recipe.data.matched, 0, 1);

@@ -83,7 +83,35 @@ Course course_of(const Gauge& gauge, const Heading& heading, Dice& dice) {
   return course;
 }
 
-FlatPoints integrate(const Gauge& gauge, const Course& course, std::size_t count) {
+// A turn about once around, its bend growing from nothing and shrinking again.
+struct Loop {
+  double middle = 0;  // share of the rope
+  double half = 0;    // likewise
+  double angle = 0;   // radians, of either sign
+
+  [[nodiscard]] double turned_by(double t) const {
+    const double s = std::clamp((t - middle) / half, -1.0, 1.0);
+    return 0.5 * angle * (1 + s + std::sin(std::numbers::pi * s) / std::numbers::pi);
+  }
+};
+
+// The bend is twice as strong in the middle of a loop as in its mean.
+Loop draw_loop(const Gauge& gauge, int number, int loops, Dice& dice) {
+  const double angle = kTurn * dice.uniform(0.75, 1.1);
+  const double longest = 0.9 * gauge.length_m / loops;
+  const double shortest = 2 * angle * gauge.least_bend_m;
+  const double length = std::min(longest, shortest * dice.log_uniform(1.0, 3.0));
+  const double free = std::max(0.0, 1.0 / loops - length / gauge.length_m);
+  return {(number + 0.5) / loops + 0.5 * free * dice.uniform(-1, 1), 0.5 * length / gauge.length_m,
+          angle * dice.sign()};
+}
+
+Course gentle_course(const Gauge& gauge, Dice& dice) {
+  return course_of(gauge, {.turn = dice.uniform(0, 2), .wander = dice.uniform(0.1, 0.9)}, dice);
+}
+
+FlatPoints integrate(const Gauge& gauge, const Course& course, std::size_t count,
+                     const std::vector<Loop>& loops = {}) {
   const double step = gauge.length_m / static_cast<double>(count);
   FlatPoints points{Vector2d::Zero()};
   points.reserve(count + 1);
@@ -93,6 +121,7 @@ FlatPoints integrate(const Gauge& gauge, const Course& course, std::size_t count
     for (const Wave& w : course.waves) {
       angle += w.amplitude * std::sin(kTurn * w.frequency * t + w.phase);
     }
+    for (const Loop& loop : loops) angle += loop.turned_by(t);
     points.emplace_back(points.back() + step * Vector2d(std::cos(angle), std::sin(angle)));
   }
   return points;
@@ -164,6 +193,21 @@ std::optional<FlatPoints> wandering(const Gauge& gauge, const Heading& heading, 
     if (!fits(all, heading, gauge, step, kCoarse)) continue;
     if (!clear(coarse, all, gauge, step)) continue;
     return integrate(gauge, course, std::max(kCoarse, fine_count(gauge)));
+  }
+  return std::nullopt;
+}
+
+std::optional<FlatPoints> looped(const Gauge& gauge, int loops, Dice& dice) {
+  for (int k = 0; k < kAttempts; ++k) {
+    const Course course = gentle_course(gauge, dice);
+    std::vector<Loop> all_loops;
+    for (int i = 0; i < loops; ++i) all_loops.push_back(draw_loop(gauge, i, loops, dice));
+    const auto count = std::max(kCoarse, fine_count(gauge));
+    const FlatPoints points = integrate(gauge, course, count, all_loops);
+    const double step = gauge.length_m / static_cast<double>(count);
+    const auto all = crossings(points);
+    const Heading heading{.least_crossings = loops, .most_crossings = 3 * loops};
+    if (fits(all, heading, gauge, step, count) && clear(points, all, gauge, step)) return points;
   }
   return std::nullopt;
 }

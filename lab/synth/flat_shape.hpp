@@ -34,6 +34,10 @@ using FlatPoints = std::vector<Vector2d>;
 [[nodiscard]] std::optional<FlatPoints> wandering(const Gauge& gauge, const Heading& heading,
                                                   Dice& dice);
 
+/// A gently bent line with so many loops, each as a rope has it that was turned once around.
+/// Otherwise as wandering(); flat crossings are rarer than there.
+[[nodiscard]] std::optional<FlatPoints> looped(const Gauge& gauge, int loops, Dice& dice);
+
 /// Two strands side by side, touching, with a turn at one end: a hairpin. With `roomy`, the turn
 /// is wide and the strands part again before the ends.
 [[nodiscard]] FlatPoints doubled(const Gauge& gauge, bool roomy, Dice& dice);

@@ -42,12 +42,16 @@ inline constexpr std::array<std::string_view, 9> kWideScenarios = {
 
 inline constexpr std::array<std::string_view, 5> kSeveralScenarios = {
     "ropes-crossing", "ropes-touching", "ropes-hanging", "ropes-ring", "ropes-leaving"};
+inline constexpr std::array<std::string_view, 4> kTangledScenarios = {
+    "tangled-loops", "tangled-coils", "tangled-flat", "tangled-near"};
 
 /// Strands at least 1.95 radii apart, no bend tighter than 3 radii; empty when an attempt failed.
 [[nodiscard]] std::optional<Rope> try_thesis_rope(std::string_view scenario, Dice& dice);
 [[nodiscard]] std::optional<Rope> try_wide_rope(std::string_view scenario, Dice& dice);
 /// Two to nine of them; also strands of different ropes are that far apart.
 [[nodiscard]] std::optional<Ropes> try_several_ropes(std::string_view scenario, Dice& dice);
+/// Two to six on a table, likewise.
+[[nodiscard]] std::optional<Ropes> try_tangled_ropes(std::string_view scenario, Dice& dice);
 
 /// What every rope must be.
 [[nodiscard]] bool sound(const Rope& rope);

@@ -1,5 +1,8 @@
-// The sets of ropes of the several split: what lies, or hangs, in one picture and one mask.
+// The sets of ropes of the splits several and tangled: what lies, or hangs, in one picture and one
+// mask.
+#include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -14,10 +17,17 @@ namespace {
 
 constexpr double kTurn = 2 * std::numbers::pi;
 constexpr int kPlacings = 40;          // of one rope
-constexpr double kFlattest = 0.35;     // sine of the flattest crossing
-constexpr double kClearEnd = 4.0;      // radii between an end and a crossing
 constexpr double kTouching = 1.01;     // sums of two radii between ropes that touch
 constexpr double kSeparation = 0.975;  // sums of two radii between ropes, in space
+
+// How ropes may cross each other.
+struct Order {
+  double flattest;   // sine of the flattest crossing
+  double clear_end;  // radii between an end and a crossing
+};
+
+constexpr Order kTidy = {0.35, 4.0};
+constexpr Order kTangled = {0.15, 1.5};
 
 int count_of(Dice& dice) {
   const std::size_t group = dice.pick({0.35, 0.3, 0.15, 0.1, 0.1});
@@ -129,18 +139,18 @@ FlatPoints beside(const FlatRope& other, const Gauge& gauge, Dice& dice) {
   return points;
 }
 
-// Near each other at steep crossings alone, which lie apart from the ends; `apart` in sums of
-// radii.
-bool lies_well(const FlatRope& a, const FlatRope& b, double apart, bool& cross) {
+// Near each other at crossings alone, which lie as `order` has it; `apart` in sums of radii.
+bool lies_well(const FlatRope& a, const FlatRope& b, const Order& order, double apart,
+               bool& cross) {
   const auto all = crossings(a.points, b.points);
   const double step_a = length_of(a.points) / static_cast<double>(a.points.size() - 1);
   const double step_b = length_of(b.points) / static_cast<double>(b.points.size() - 1);
-  const auto inside = [](double at, const FlatRope& rope, double step) {
-    const double end = kClearEnd * rope.gauge.radius_m / step;
+  const auto inside = [&](double at, const FlatRope& rope, double step) {
+    const double end = order.clear_end * rope.gauge.radius_m / step;
     return at > end && at < static_cast<double>(rope.points.size() - 1) - end;
   };
   for (const Crossing& c : all) {
-    if (c.sine < kFlattest || !inside(c.first, a, step_a) || !inside(c.second, b, step_b)) {
+    if (c.sine < order.flattest || !inside(c.first, a, step_a) || !inside(c.second, b, step_b)) {
       return false;
     }
   }
@@ -164,6 +174,14 @@ bool lies_well(const FlatRope& a, const FlatRope& b, double apart, bool& cross) 
   return true;
 }
 
+// Anywhere around the middle of one of the others.
+void put_near(FlatPoints& points, const std::vector<FlatRope>& others, double reach_m, Dice& dice) {
+  const double away = reach_m * std::sqrt(dice.uniform(0, 1));
+  const double angle = dice.uniform(0, kTurn);
+  put(points, middle_of(others[dice.any_of(others.size())].points) +
+                  away * Vector2d(std::cos(angle), std::sin(angle)));
+}
+
 // A shape for the next rope, in its place among the others. Empty when none was found.
 std::optional<FlatRope> placed(const std::vector<FlatRope>& others, const Gauge& gauge, bool closed,
                                bool touching, bool joined, Dice& dice) {
@@ -183,19 +201,28 @@ std::optional<FlatRope> placed(const std::vector<FlatRope>& others, const Gauge&
       rope.points = std::move(*shape);
     }
     if (!touching && !others.empty()) {
-      const double reach = 0.5 * others.front().gauge.length_m * std::sqrt(dice.uniform(0, 1));
-      const double angle = dice.uniform(0, kTurn);
-      put(rope.points, middle_of(others[dice.any_of(others.size())].points) +
-                           0.6 * reach * Vector2d(std::cos(angle), std::sin(angle)));
+      put_near(rope.points, others, 0.3 * others.front().gauge.length_m, dice);
     }
     bool cross = others.empty() || touching;
     const bool fits = std::all_of(others.begin(), others.end(), [&](const FlatRope& other) {
       const bool beside_it = touching && &other == &others.front();
-      return lies_well(other, rope, beside_it ? 0.5 * (1 + kTouching) : clear, cross);
+      return lies_well(other, rope, kTidy, beside_it ? 0.5 * (1 + kTouching) : clear, cross);
     });
     if (fits && (cross || !joined)) return rope;
   }
   return std::nullopt;
+}
+
+std::optional<Ropes> laid_down(const std::vector<FlatRope>& flat, Dice& dice) {
+  Laying laying{.in_order = dice.chance(0.6)};
+  auto curves = laid_together(flat, laying, dice);
+  if (!curves) return std::nullopt;
+  Ropes ropes(flat.size());
+  for (std::size_t k = 0; k < flat.size(); ++k) {
+    ropes[k].curve = std::move((*curves)[k]);
+    ropes[k].closed = flat[k].closed;
+  }
+  return ropes;
 }
 
 std::optional<Ropes> on_a_table(std::string_view scenario, const std::vector<Gauge>& gauges,
@@ -210,15 +237,74 @@ std::optional<Ropes> on_a_table(std::string_view scenario, const std::vector<Gau
     rope->gauge.length_m = length_of(rope->points);
     flat.push_back(*std::move(rope));
   }
-  Laying laying{.in_order = dice.chance(0.6)};
-  auto curves = laid_together(flat, laying, dice);
-  if (!curves) return std::nullopt;
-  Ropes ropes(flat.size());
-  for (std::size_t k = 0; k < flat.size(); ++k) {
-    ropes[k].curve = std::move((*curves)[k]);
-    ropes[k].closed = flat[k].closed;
+  return laid_down(flat, dice);
+}
+
+enum class Shape { kLoops, kCoil, kFold, kKnotted, kGentle };
+
+Shape shape_of(std::string_view scenario, bool first, Dice& dice) {
+  constexpr std::array kShapes{Shape::kLoops, Shape::kCoil, Shape::kFold, Shape::kKnotted,
+                               Shape::kGentle};
+  if (scenario == "tangled-loops") return kShapes[first ? 0 : dice.pick({45, 0, 0, 20, 35})];
+  if (scenario == "tangled-coils") return kShapes[first ? 1 : dice.pick({15, 20, 10, 10, 45})];
+  if (scenario == "tangled-flat") return kShapes[dice.pick({5, 0, 5, 5, 85})];
+  return kShapes[dice.pick({25, 10, 10, 20, 35})];
+}
+
+std::optional<FlatPoints> shaped(Shape shape, Gauge& gauge, Dice& dice) {
+  if (shape == Shape::kLoops) {
+    gauge.length_m = gauge.radius_m * dice.log_uniform(110, 400);
+    return looped(gauge, 1 + static_cast<int>(dice.pick({0.6, 0.3, 0.1})), dice);
   }
-  return ropes;
+  if (shape == Shape::kCoil) {
+    gauge.length_m = gauge.radius_m * dice.log_uniform(130, 400);
+    return coil(gauge, dice);
+  }
+  if (shape == Shape::kFold) {
+    gauge.length_m = gauge.radius_m * dice.log_uniform(90, 350);
+    return doubled(gauge, dice.chance(0.5), dice);
+  }
+  if (shape == Shape::kKnotted) {
+    gauge.length_m = gauge.radius_m * dice.log_uniform(90, 400);
+    const Heading heading{.turn = dice.uniform(4, 9),
+                          .wander = dice.uniform(1.5, 5),
+                          .least_crossings = 1,
+                          .most_crossings = 5};
+    return wandering(gauge, heading, dice);
+  }
+  return wandering(gauge, {.turn = dice.uniform(0, 3), .wander = dice.uniform(0.1, 2)}, dice);
+}
+
+std::optional<FlatRope> thrown(std::string_view scenario, const std::vector<FlatRope>& others,
+                               const Gauge& gauge, Dice& dice) {
+  for (int k = 0; k < kPlacings; ++k) {
+    FlatRope rope{{}, gauge, false};
+    auto shape = shaped(shape_of(scenario, others.empty(), dice), rope.gauge, dice);
+    if (!shape) continue;
+    rope.points = std::move(*shape);
+    rope.gauge.length_m = length_of(rope.points);
+    const double turn = dice.uniform(0, kTurn);
+    for (Vector2d& p : rope.points) p = Eigen::Rotation2Dd(turn) * p;
+    if (others.empty()) return rope;
+    put_near(rope.points, others, 0.2 * others.front().gauge.length_m, dice);
+    bool cross = false;
+    const bool fits = std::all_of(others.begin(), others.end(), [&](const FlatRope& other) {
+      return lies_well(other, rope, kTangled, 1.06, cross);
+    });
+    if (fits && cross) return rope;
+  }
+  return std::nullopt;
+}
+
+std::optional<Ropes> thrown_together(std::string_view scenario, const std::vector<Gauge>& gauges,
+                                     Dice& dice) {
+  std::vector<FlatRope> flat;
+  for (const Gauge& gauge : gauges) {
+    auto rope = thrown(scenario, flat, gauge, dice);
+    if (!rope) return std::nullopt;
+    flat.push_back(*std::move(rope));
+  }
+  return laid_down(flat, dice);
 }
 
 // One before the other, each from grippers of its own.
@@ -252,13 +338,9 @@ bool apart(const Ropes& ropes) {
   return true;
 }
 
-}  // namespace
-
-std::optional<Ropes> try_several_ropes(std::string_view scenario, Dice& dice) {
-  const auto gauges = gauges_of(count_of(dice), dice);
-  const bool square_ends = dice.chance(0.5);
-  auto ropes = scenario == "ropes-hanging" ? std::optional(in_the_air(gauges, dice))
-                                           : on_a_table(scenario, gauges, dice);
+// As they are to be, longest first. Empty where one is not, or where two run through each other.
+std::optional<Ropes> finished(std::optional<Ropes> ropes, std::string_view scenario,
+                              const std::vector<Gauge>& gauges, bool square_ends) {
   if (!ropes) return std::nullopt;
   for (std::size_t k = 0; k < gauges.size(); ++k) {
     Rope& rope = (*ropes)[k];
@@ -272,6 +354,23 @@ std::optional<Ropes> try_several_ropes(std::string_view scenario, Dice& dice) {
     return a.curve.length_m() > b.curve.length_m();
   });
   return ropes;
+}
+
+}  // namespace
+
+std::optional<Ropes> try_several_ropes(std::string_view scenario, Dice& dice) {
+  const auto gauges = gauges_of(count_of(dice), dice);
+  const bool square_ends = dice.chance(0.5);
+  return finished(scenario == "ropes-hanging" ? std::optional(in_the_air(gauges, dice))
+                                              : on_a_table(scenario, gauges, dice),
+                  scenario, gauges, square_ends);
+}
+
+std::optional<Ropes> try_tangled_ropes(std::string_view scenario, Dice& dice) {
+  const int count = 2 + static_cast<int>(dice.pick({0.35, 0.3, 0.2, 0.1, 0.05}));
+  const auto gauges = gauges_of(count, dice);
+  const bool square_ends = dice.chance(0.5);
+  return finished(thrown_together(scenario, gauges, dice), scenario, gauges, square_ends);
 }
 
 }  // namespace flowdlo::synth

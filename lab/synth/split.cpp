@@ -29,6 +29,8 @@ std::string_view name_of(Split split) {
       return "wide";
     case Split::kSeveral:
       return "several";
+    case Split::kTangled:
+      return "tangled";
     case Split::kDrawn:
       break;
   }
@@ -38,7 +40,8 @@ std::string_view name_of(Split split) {
 std::string_view name_of(Part part) { return part == Part::kTraining ? "training" : "validation"; }
 
 std::optional<Split> split_of(std::string_view name) {
-  for (const Split split : {Split::kThesis, Split::kWide, Split::kSeveral, Split::kDrawn}) {
+  for (const Split split :
+       {Split::kThesis, Split::kWide, Split::kSeveral, Split::kDrawn, Split::kTangled}) {
     if (name == name_of(split)) return split;
   }
   return std::nullopt;
@@ -60,6 +63,7 @@ std::uint64_t scene_count(Split split, Part part) {
 std::span<const std::string_view> scenarios(Split split) {
   if (split == Split::kThesis) return kThesisScenarios;
   if (split == Split::kSeveral) return kSeveralScenarios;
+  if (split == Split::kTangled) return kTangledScenarios;
   if (split == Split::kDrawn) return lab::kind_names();
   return kWideScenarios;
 }

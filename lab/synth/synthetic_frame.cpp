@@ -44,6 +44,7 @@ std::string_view scenario_of(const SceneKey& key) {
   if (key.split == Split::kDrawn) return lab::kind_names()[key.index % lab::kKinds];
   Dice dice(key, Use::kScenario);
   if (key.split == Split::kSeveral) return kSeveralScenarios[dice.pick({30, 20, 20, 15, 15})];
+  if (key.split == Split::kTangled) return kTangledScenarios[dice.pick({35, 20, 20, 25})];
   return kWideScenarios[dice.pick({18, 13, 14, 11, 12, 8, 8, 9, 7})];
 }
 
@@ -76,11 +77,12 @@ bool set_up_wide(std::string_view scenario, Dice& ropes, Dice& views, Stage& sta
 }
 
 bool set_up_several(std::string_view scenario, Dice& dice, Dice& views, Stage& stage) {
-  auto ropes = try_several_ropes(scenario, dice);
+  const bool tangled = scenario.starts_with("tangled");
+  auto ropes = tangled ? try_tangled_ropes(scenario, dice) : try_several_ropes(scenario, dice);
   if (!ropes) return false;
   if (stage.ring_alone) std::erase_if(*ropes, [](const Rope& rope) { return !rope.closed; });
   if (ropes->empty()) return false;
-  const bool near = scenario == "ropes-leaving";
+  const bool near = scenario == "ropes-leaving" || scenario == "tangled-near";
   return set_up_view(*std::move(ropes), near ? try_near_view : try_wide_view, views, stage);
 }
 
@@ -217,9 +219,9 @@ class Scene {
 // True when this attempt shows enough of its ropes.
 Result<bool> Scene::stage_once(Dice& ropes, Dice& views, Dice& dice) {
   const bool thesis = key_.split == Split::kThesis;
-  const auto set_up = thesis                          ? set_up_thesis
-                      : key_.split == Split::kSeveral ? set_up_several
-                                                      : set_up_wide;
+  const auto set_up = thesis                    ? set_up_thesis
+                      : has_several(key_.split) ? set_up_several
+                                                : set_up_wide;
   if (!set_up(scenario_, ropes, views, stage_)) return false;
   if (stage_.cords) draw_cords(Dice(key_, Use::kCord), stage_.ropes);
   stage_.faults = {};
@@ -301,7 +303,7 @@ Result<SyntheticFrame> Scene::taken(const Render& render) const {
     result.ropes.push_back({nodes_of(view.curves[k]), rope.radius_m, rope.closed});
   }
   folder.truth = result.ropes.front().nodes;
-  if (key_.split == Split::kSeveral) folder.instances = labels_of(picture_);
+  if (has_several(key_.split)) folder.instances = labels_of(picture_);
   if (render.dense) result.dense = {view.curves, picture_.depth_m, picture_.mask};
   if (render.color) {
     Dice light(key_, Use::kLook, render.frame + 1);

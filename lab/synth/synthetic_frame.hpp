@@ -21,13 +21,18 @@ namespace flowdlo::synth {
 
 /// kThesis: nine groups on a table, 0.3 to 0.5 m away, clean depth. kWide: whatever a user brings.
 /// kSeveral: the same with two to nine ropes in one mask. kDrawn: lab/scene's tubes in a plain
-/// z-buffer, one frame each.
-enum class Split { kThesis, kWide, kSeveral, kDrawn };
+/// z-buffer, one frame each. kTangled: two to six ropes in one mask that are looped, coiled or
+/// folded, and cross each other at any angle.
+enum class Split { kThesis, kWide, kSeveral, kDrawn, kTangled };
 
 /// The two never share a scene, whatever the seeds: the part is a bit of every random counter.
 enum class Part { kTraining, kValidation };
 
 [[nodiscard]] std::string_view name_of(Split split);
+/// Whether the split's scenes show several ropes.
+[[nodiscard]] constexpr bool has_several(Split split) {
+  return split == Split::kSeveral || split == Split::kTangled;
+}
 [[nodiscard]] std::string_view name_of(Part part);
 [[nodiscard]] std::optional<Split> split_of(std::string_view name);
 [[nodiscard]] std::optional<Part> part_of(std::string_view name);

@@ -27,6 +27,7 @@ namespace {
 struct Options {
   strand::SceneRange range;
   std::uint64_t several = 0;
+  std::uint64_t tangled = 0;
   std::uint64_t thesis = 0;
   std::uint64_t drawn = 0;
   int rounds = 25;
@@ -36,11 +37,13 @@ struct Options {
 using Samples = std::vector<TipSample>;
 
 Result<Samples> measure(synth::Split split, std::uint64_t index, field::Network& network) {
-  auto scene = synth::frame_at(split, synth::Part::kTraining, index, strand::render_of(index));
+  const bool clean = split == synth::Split::kThesis;
+  auto scene = synth::frame_at(split, synth::Part::kTraining, index,
+                               clean ? synth::Render{} : strand::render_of(index));
   if (!scene) return scene.error();
-  if (split != synth::Split::kThesis) lay_bare(scene->folder, index);
-  Samples samples = split == synth::Split::kSeveral ? samples_of_ropes(*scene, network)
-                                                    : samples_of(*scene, network);
+  if (!clean) lay_bare(scene->folder, index);
+  Samples samples =
+      synth::has_several(split) ? samples_of_ropes(*scene, network) : samples_of(*scene, network);
   for (TipSample& sample : samples) {
     sample.index = index;
     sample.kind = synth::name_of(split);
@@ -58,6 +61,7 @@ Gathered gather(const Options& options) {
   auto range = options.range;
   for (const auto& [split, scenes] : {std::pair(synth::Split::kWide, options.range.scenes),
                                       std::pair(synth::Split::kSeveral, options.several),
+                                      std::pair(synth::Split::kTangled, options.tangled),
                                       std::pair(synth::Split::kThesis, options.thesis),
                                       std::pair(synth::Split::kDrawn, options.drawn)}) {
     range.scenes = scenes;
@@ -102,10 +106,11 @@ int run(const Options& options) {
   auto tips = fit_tips(gathered.fitted, options.rounds);
   print(gathered, tips);
   tips.notes = fmt::format(
-      "flowdlo-lab tip-fit, training scenes from {}: {} of wide, {} of several, {} of thesis, {} "
+      "flowdlo-lab tip-fit, training scenes from {}: {} of wide, {} of several, {} tangled, {} of "
+      "thesis, {} "
       "drawn, three in four of each; {} rounds",
-      options.range.first, options.range.scenes, options.several, options.thesis, options.drawn,
-      options.rounds);
+      options.range.first, options.range.scenes, options.several, options.tangled, options.thesis,
+      options.drawn, options.rounds);
   field->tips = std::move(tips);
   const auto saved = weights::save_field(*field, options.out);
   return saved ? 0 : survey::failed(saved.error());
@@ -120,6 +125,7 @@ void add_tip_fit(CLI::App& program, support::ExitCode& exit_code) {
   options->range.part = "training";
   strand::add_options(app, options->range);
   app.add_option("--several", options->several, "So many scenes of several ropes as well");
+  app.add_option("--tangled", options->tangled, "And so many of several that are looped or coiled");
   app.add_option("--thesis", options->thesis, "So many scenes of the split thesis as well");
   app.add_option("--drawn", options->drawn, "And so many drawn ones");
   app.add_option("--rounds", options->rounds, "Of the fit over all ends")

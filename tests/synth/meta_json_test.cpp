@@ -34,8 +34,10 @@ TEST(MetaJson, HoldsEveryFieldOfARealFrame) {
 }
 
 TEST(MetaJson, NamesOfSplitsAndPartsAreReadBack) {
-  for (const Split split : {Split::kThesis, Split::kWide})
+  for (const Split split :
+       {Split::kThesis, Split::kWide, Split::kSeveral, Split::kDrawn, Split::kTangled}) {
     EXPECT_EQ(split_of(name_of(split)), split);
+  }
   for (const Part part : {Part::kTraining, Part::kValidation}) {
     EXPECT_EQ(part_of(name_of(part)), part);
   }

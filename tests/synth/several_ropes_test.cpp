@@ -49,7 +49,7 @@ TEST(SeveralRopes, AreTheSameEveryTimeAndShareNoNumbersWithOtherSplits) {
   EXPECT_EQ(first.folder.depth_m, again.folder.depth_m);
   EXPECT_EQ(first.folder.mask, again.folder.mask);
   std::set<std::uint64_t> streams;
-  for (const Split split : {Split::kThesis, Split::kWide, Split::kSeveral}) {
+  for (const Split split : {Split::kThesis, Split::kWide, Split::kSeveral, Split::kTangled}) {
     for (const Use use : {Use::kScenario, Use::kRope, Use::kView, Use::kThings, Use::kSensor,
                           Use::kMask, Use::kLook}) {
       for (const int frame : {0, 1}) {
@@ -58,7 +58,7 @@ TEST(SeveralRopes, AreTheSameEveryTimeAndShareNoNumbersWithOtherSplits) {
       }
     }
   }
-  EXPECT_EQ(streams.size(), 3U * 7U * 2U * 2U);
+  EXPECT_EQ(streams.size(), 4U * 7U * 2U * 2U);
 }
 
 TEST(SeveralRopes, NoneRunsThroughAnother) {

@@ -109,6 +109,17 @@ TEST(SynthCommand, WideFramesSurviveTheRoundTripToo) {
   }
 }
 
+TEST(SynthCommand, WhatIsOfRenderedScenesAloneIsRefusedOfDrawnOnes) {
+  const TemporaryFolder scratch;
+  for (const char* const flag : {"--cords", "--matched"}) {
+    const auto outcome = run_flowdlo(scratch.path(), {"synth", (scratch.path() / "set").string(),
+                                                      "--split", "drawn", "--count", "1", flag});
+    EXPECT_EQ(outcome.exit_code, 2);
+    EXPECT_THAT(outcome.err, HasSubstr(std::string(flag) + ": expected a rendered split"));
+    EXPECT_FALSE(std::filesystem::exists(scratch.path() / "set"));
+  }
+}
+
 TEST(SynthCommand, CanBeStartedAgain) {
   const TemporaryFolder scratch;
   const auto out = (scratch.path() / "set").string();
