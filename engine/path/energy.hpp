@@ -63,6 +63,11 @@ inline constexpr float kLeftOutEnergy = 2.5F;
 /// worse.
 inline constexpr float kTouchEnergy = 1.0F;
 
+/// And of one that links close to a ring: few ropes are rings, and the inner turn of a coil looks
+/// like one. Chosen on 184 rendered training scenes of several ropes, half of them tangled
+/// (docs/ropes.md): 0 has two scenes fewer right, all of coils; 2.5 loses true rings.
+inline constexpr float kRingEnergy = 1.0F;
+
 /// And, where there may be several ropes, of one more that has two ends, beside what path/
 /// link_network says of these: the scenes it is fitted to hold more ropes than most frames do. At 0
 /// a real rope behind a dark bar is as likely two; 0.2 to 0.6 are alike on rendered and drawn

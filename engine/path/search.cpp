@@ -190,6 +190,12 @@ std::vector<float> only_stops_of(const Strands& strands, std::vector<float> stop
   return stops;
 }
 
+std::ptrdiff_t closed_by_bonds(const RopeSet& set, const Strands& strands) {
+  return std::count_if(set.ways.begin(), set.ways.end(), [&](const Traversal& way) {
+    return way.closed && !strands.list[way.enters.front() / 2].ring;
+  });
+}
+
 template <class Priced>
 void sort_and_cut(std::vector<Priced>& list, std::size_t count) {
   std::stable_sort(list.begin(), list.end(),
@@ -242,7 +248,8 @@ std::vector<RopeSet> search_sets(const Strands& strands, const Prices& prices, i
   std::vector<RopeSet> found;
   for (RopeSet& set : ropes > 0 ? ends.sets_around(wanted) : ends.sets(0, kPairings)) {
     if (ropes > 0 && set.ways.size() != wanted) continue;
-    set.cost += kTouchEnergy * static_cast<float>(touches(set, strands));
+    set.cost += kTouchEnergy * static_cast<float>(touches(set, strands)) +
+                kRingEnergy * static_cast<float>(closed_by_bonds(set, strands));
     found.push_back(std::move(set));
   }
   sort_and_cut(found, count);

@@ -111,7 +111,7 @@ Prices loop_prices(float through, float back) {
 
 TEST(RopeSets, ARingThatARopeTouchesIsALoopUnlessThatCostsMuchMore) {
   const Strands strands = rope_with_loop();
-  const float gain = kTouchEnergy;
+  const float gain = kTouchEnergy + kRingEnergy;
   const auto loop = search_sets(strands, loop_prices(1 + 0.5F * gain - 0.1F, 1), 0, 4);
   ASSERT_FALSE(loop.empty());
   EXPECT_EQ(loop[0].ways.size(), 1U) << "within what touching costs";
@@ -156,7 +156,16 @@ TEST(RopeSets, AWayThatComesBackToItsBeginningIsClosed) {
   ASSERT_FALSE(sets.empty());
   ASSERT_EQ(sets[0].ways.size(), 1U);
   EXPECT_TRUE(sets[0].ways[0].closed);
-  EXPECT_NEAR(sets[0].cost, 0.2F, 1e-4F);
+  EXPECT_NEAR(sets[0].cost, 0.2F + kRingEnergy, 1e-4F);
+}
+
+TEST(RopeSets, AStrandThatIsSeenToBeARingPaysNothingForIt) {
+  Strands strands = strands_of(1);
+  strands.list[0].ring = true;
+  const auto sets = search_sets(strands, prices_of(Bonds(2)), 0, 4);
+  ASSERT_FALSE(sets.empty());
+  EXPECT_TRUE(sets[0].ways.at(0).closed);
+  EXPECT_NEAR(sets[0].cost, 0, 1e-4F);
 }
 
 TEST(RopeSets, WhatIsTooShortForARingStaysOpen) {
