@@ -8,6 +8,7 @@
 #include "estimator/candidates.hpp"
 #include "estimator/refinement.hpp"
 #include "gate/one_rope.hpp"
+#include "geometry/camera.hpp"
 #include "geometry/polyline.hpp"
 
 namespace flowdlo::estimator {
@@ -38,6 +39,13 @@ void own_to_guesses(const std::array<float, 2>& beyond_m, float radius_m, Judged
     float& sigma_m = judged.returned.sigma_m[i];
     sigma_m = std::max(sigma_m, kGuessed * guessed_m);
   }
+}
+
+/// A ring's first node and its last are one place, which networks move each by itself.
+void close_ring(Centerline& nodes) {
+  const Eigen::Vector3f middle =
+      0.5F * (geometry::to_eigen(nodes.front()) + geometry::to_eigen(nodes.back()));
+  nodes.front() = nodes.back() = geometry::to_point(middle);
 }
 
 }  // namespace
@@ -80,6 +88,7 @@ Result<Judged> Judge::settle(Chosen chosen, const Sampled& sampled) const {
     judged.nodes = moved->nodes;
     own_to_guesses(moved->beyond_m, chosen.candidates[returned.hypothesis].radius_m, judged);
   }
+  if (judged.look.hypotheses[returned.hypothesis].course.closed) close_ring(judged.nodes);
   judged.one_rope = gate::one_rope(judged.nodes, frame_, conditions_.paths.rope_width_px);
   judged.confidence = gate::doubted(returned.confidence, judged.one_rope);
   return judged;

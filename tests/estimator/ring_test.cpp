@@ -48,6 +48,7 @@ Centerline told_otherwise(const Centerline& nodes, std::size_t by) {
 TEST_F(Ring, IsFoundClosedAndSaysHowSureItIs) {
   const Estimate found = estimate();
   EXPECT_TRUE(found.closed);
+  EXPECT_EQ(geometry::distance(found.nodes.front(), found.nodes.back()), 0);
   EXPECT_LT(geometry::mean_distance(ring_.truth, found.nodes, true), 0.0015);
   EXPECT_GT(found.confidence, 0.8F);
   auto sigma_m = found.sigma_m;
@@ -91,8 +92,7 @@ TEST_F(Ring, ThatABarPartsIsClosedWhereThatIsKnown) {
   const Estimate found = estimate({.closed = true});
   EXPECT_TRUE(found.closed);
   EXPECT_LT(geometry::mean_distance(ring_.truth, found.nodes, true), 0.003);
-  EXPECT_LT(geometry::distance(found.nodes.front(), found.nodes.back()),
-            testing::RingFrame::kRadius_m);
+  EXPECT_EQ(geometry::distance(found.nodes.front(), found.nodes.back()), 0);
 }
 
 TEST_F(Ring, HasTwoEndsWhereThatIsKnown) { EXPECT_FALSE(estimate({.closed = false}).closed); }
