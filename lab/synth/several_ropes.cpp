@@ -174,12 +174,13 @@ bool lies_well(const FlatRope& a, const FlatRope& b, const Order& order, double 
   return true;
 }
 
-// Anywhere around the middle of one of the others.
-void put_near(FlatPoints& points, const std::vector<FlatRope>& others, double reach_m, Dice& dice) {
-  const double away = reach_m * std::sqrt(dice.uniform(0, 1));
+// Anywhere around the middle of one of the others, at most `share` of half the first one's length
+// away.
+void put_near(FlatPoints& points, const std::vector<FlatRope>& others, double share, Dice& dice) {
+  const double reach = 0.5 * others.front().gauge.length_m * std::sqrt(dice.uniform(0, 1));
   const double angle = dice.uniform(0, kTurn);
   put(points, middle_of(others[dice.any_of(others.size())].points) +
-                  away * Vector2d(std::cos(angle), std::sin(angle)));
+                  share * reach * Vector2d(std::cos(angle), std::sin(angle)));
 }
 
 // A shape for the next rope, in its place among the others. Empty when none was found.
@@ -201,7 +202,7 @@ std::optional<FlatRope> placed(const std::vector<FlatRope>& others, const Gauge&
       rope.points = std::move(*shape);
     }
     if (!touching && !others.empty()) {
-      put_near(rope.points, others, 0.3 * others.front().gauge.length_m, dice);
+      put_near(rope.points, others, 0.6, dice);
     }
     bool cross = others.empty() || touching;
     const bool fits = std::all_of(others.begin(), others.end(), [&](const FlatRope& other) {
@@ -286,7 +287,7 @@ std::optional<FlatRope> thrown(std::string_view scenario, const std::vector<Flat
     const double turn = dice.uniform(0, kTurn);
     for (Vector2d& p : rope.points) p = Eigen::Rotation2Dd(turn) * p;
     if (others.empty()) return rope;
-    put_near(rope.points, others, 0.2 * others.front().gauge.length_m, dice);
+    put_near(rope.points, others, 0.4, dice);
     bool cross = false;
     const bool fits = std::all_of(others.begin(), others.end(), [&](const FlatRope& other) {
       return lies_well(other, rope, kTangled, 1.06, cross);
