@@ -27,10 +27,9 @@ struct RopeSet {
 /// are none. A set pays for its bonds, for where its ways end, for what it leaves out, kRingEnergy
 /// for each ring that bonds close, and kTouchEnergy where two bonds touch. Every end of a strand
 /// has one bond at most and every strand is either used or left out, so that a set is a pairing of
-/// ends
-/// (`cheapest_pairings`): exact for any number of ropes as long as that is. A number that is asked
-/// for comes from the price of one more rope at which it is the cheapest one; one that is so at no
-/// price is looked for on both sides of where it is passed. Deterministic.
+/// ends (`cheapest_pairings`): exact for any number of ropes as long as that is. A number that is
+/// asked for comes from the price of one more rope at which it is the cheapest one; one that is so
+/// at no price is looked for on both sides of where it is passed. Deterministic.
 [[nodiscard]] std::vector<RopeSet> search_sets(const Strands& strands, const Prices& prices,
                                                int ropes, std::size_t count);
 

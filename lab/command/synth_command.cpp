@@ -195,9 +195,8 @@ void add_synth_command(CLI::App& app, support::ExitCode& exit_code) {
       ->add_option("--split", options->split,
                    "thesis (nine groups on a table, clean depth), wide (sensors, occluders, "
                    "hanging ropes), several (the same with two to nine ropes), tangled (two to six "
-                   "that are looped, "
-                   "coiled and thrown on each other) or drawn (plain "
-                   "tubes of eleven kinds) [wide]")
+                   "that are looped, coiled and thrown on each other) or drawn (plain tubes of "
+                   "eleven kinds) [wide]")
       ->transform(support::choice<synth::Split>({{"thesis", synth::Split::kThesis},
                                                  {"wide", synth::Split::kWide},
                                                  {"several", synth::Split::kSeveral},

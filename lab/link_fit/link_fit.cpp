@@ -53,22 +53,17 @@ void flatten(synth::SyntheticFrame& scene) {
             geometry::median_of(depths_m));
 }
 
-enum class Source { kWide, kSeveral, kTangled, kDrawn };
-
-Result<synth::SyntheticFrame> scene_of(Source source, std::uint64_t index) {
-  if (source == Source::kDrawn) return strand::drawn_training_frame(0, index);
-  const auto split = source == Source::kWide      ? synth::Split::kWide
-                     : source == Source::kSeveral ? synth::Split::kSeveral
-                                                  : synth::Split::kTangled;
+Result<synth::SyntheticFrame> scene_of(synth::Split split, std::uint64_t index) {
+  if (split == synth::Split::kDrawn) return strand::drawn_training_frame(0, index);
   synth::Render render = strand::render_of(index);
   render.dense = true;
   return synth::make_frame(split, synth::Part::kTraining, 0, index, render);
 }
 
 /// None of a scene that teaches nothing: a ring that is read as one rope has no ends.
-Result<std::optional<LinkSample>> measure(Source source, std::uint64_t index,
+Result<std::optional<LinkSample>> measure(synth::Split split, std::uint64_t index,
                                           field::Network& network) {
-  auto scene = scene_of(source, index);
+  auto scene = scene_of(split, index);
   if (!scene) return scene.error();
   if (index % kFlat == 0) flatten(*scene);
   const bool one = scene->ropes.size() == 1;
@@ -79,9 +74,9 @@ Result<std::optional<LinkSample>> measure(Source source, std::uint64_t index,
   if ((*labelled)->strands.list.size() > kMostStrands) return std::optional<LinkSample>();
   LinkSample sample = sample_of(**labelled);
   sample.index = index;
-  const char* const made = source == Source::kDrawn     ? "drawn"
-                           : source == Source::kTangled ? "tangled"
-                                                        : "rendered";
+  const char* const made = split == synth::Split::kDrawn     ? "drawn"
+                           : split == synth::Split::kTangled ? "tangled"
+                                                             : "rendered";
   sample.kind = fmt::format("{} of {}, read as {}", made, one ? "one rope" : "several ropes",
                             several ? "several" : "one");
   return std::optional(std::move(sample));
@@ -95,12 +90,12 @@ struct Gathered {
 Gathered gather(const Options& options) {
   Gathered gathered;
   auto range = options.range;
-  for (const auto& [source, scenes] :
-       {std::pair(Source::kWide, options.range.scenes),
-        std::pair(Source::kSeveral, options.several), std::pair(Source::kTangled, options.tangled),
-        std::pair(Source::kDrawn, options.drawn)}) {
+  for (const auto& [split, scenes] : {std::pair(synth::Split::kWide, options.range.scenes),
+                                      std::pair(synth::Split::kSeveral, options.several),
+                                      std::pair(synth::Split::kTangled, options.tangled),
+                                      std::pair(synth::Split::kDrawn, options.drawn)}) {
     range.scenes = scenes;
-    const auto of = source;
+    const auto of = split;
     for (auto& sample : strand::over_scenes<std::optional<LinkSample>>(
              range, [of](std::uint64_t index, field::Network&network) {
                return measure(of, index, network);
@@ -140,8 +135,7 @@ int run(const Options& options) {
   print(gathered, links);
   links.notes = fmt::format(
       "flowdlo-lab link-fit, training scenes from {}: {} rendered of one rope, {} of several, {} "
-      "tangled, {} "
-      "drawn, three in four of each; {} rounds",
+      "tangled, {} drawn, three in four of each; {} rounds",
       options.range.first, options.range.scenes, options.several, options.tangled, options.drawn,
       options.rounds);
   field->links = std::move(links);

@@ -43,11 +43,15 @@ TEST(SeveralRopes, AreTwoToNineLongestFirstAndEachWithItsLabel) {
 }
 
 TEST(SeveralRopes, AreTheSameEveryTimeAndShareNoNumbersWithOtherSplits) {
-  const auto first = several(3, {.color = true});
-  const auto again = several(3, {.color = true});
-  EXPECT_EQ(first.folder.color_bgr, again.folder.color_bgr);
-  EXPECT_EQ(first.folder.depth_m, again.folder.depth_m);
-  EXPECT_EQ(first.folder.mask, again.folder.mask);
+  for (const Split split : {Split::kSeveral, Split::kTangled}) {
+    const auto first = make_frame(split, Part::kTraining, 7, 3);
+    const auto again = make_frame(split, Part::kTraining, 7, 3);
+    ASSERT_TRUE(first) << first.error().message;
+    ASSERT_TRUE(again) << again.error().message;
+    EXPECT_EQ(first->folder.color_bgr, again->folder.color_bgr);
+    EXPECT_EQ(first->folder.depth_m, again->folder.depth_m);
+    EXPECT_EQ(first->folder.mask, again->folder.mask);
+  }
   std::set<std::uint64_t> streams;
   for (const Split split : {Split::kThesis, Split::kWide, Split::kSeveral, Split::kTangled}) {
     for (const Use use : {Use::kScenario, Use::kRope, Use::kView, Use::kThings, Use::kSensor,

@@ -74,14 +74,6 @@ TEST(TangledRopes, CrossThemselvesAndFlatterThanTidyOnes) {
   EXPECT_GT(flattest, 0.1);
 }
 
-TEST(TangledRopes, AreTheSameEveryTime) {
-  const auto first = tangled(3, {.color = true});
-  const auto again = tangled(3, {.color = true});
-  EXPECT_EQ(first.folder.color_bgr, again.folder.color_bgr);
-  EXPECT_EQ(first.folder.depth_m, again.folder.depth_m);
-  EXPECT_EQ(first.folder.mask, again.folder.mask);
-}
-
 TEST(Looped, CrossesItselfOnceALoopAndNoBendIsTooTight) {
   Dice dice({Split::kTangled, Part::kTraining, 2, 0}, Use::kRope);
   const Gauge gauge{.length_m = 0.9, .radius_m = 0.003, .least_bend_m = 0.015};
