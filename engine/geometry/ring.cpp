@@ -69,7 +69,9 @@ ToldRing told_like(const Centerline& ring, const Centerline& other) {
   for (int part = 1 - kPartsOfSegment; part < kPartsOfSegment; ++part) {
     consider({whole.place + part, whole.step});
   }
-  ToldRing told{told_from(best, places), {}, best.step < 0};
+  ToldRing told{.nodes = told_from(best, places),
+                .reversed = best.step < 0,
+                .begins = static_cast<double>(best.place_of(0)) / kPlaces};
   for (std::size_t i = 0; i < kNodes; ++i) {
     const int nearest = (best.place_of(i) + kPartsOfSegment / 2) / kPartsOfSegment;
     told.from[i] = static_cast<std::size_t>(nearest % kSegments);

@@ -14,6 +14,7 @@ struct ToldRing {
   std::array<std::size_t, kNodes> from{};  ///< the node that each was nearest to along the ring,
                                            ///< where those were evenly spaced as well
   bool reversed = false;                   ///< it is told the other way round
+  double begins = 0;  ///< [0, 1) how far round the ring, told the way it was, the first lies
 };
 
 /// The ring from that place on and that way round from which its nodes are nearest to those of the

@@ -102,10 +102,12 @@ TrackedRopes KnownRopes::recognise(Ropes ropes) {
   for (std::uint16_t& label : ropes.instances) {
     if (label > 0) label = static_cast<std::uint16_t>(place[label - 1U] + 1);
   }
+  for (std::size_t f = 0; f < count; ++f) {
+    if (of[f]) turn(ropes.ropes[f], taken[f], known_[*of[f]].nodes);
+  }
   known_.clear();
   std::vector<Estimate> turned;
   for (const std::size_t f : order) {
-    turn(ropes.ropes[f], taken[f]);
     turned.push_back(std::move(ropes.ropes[f]));
     known_.push_back({numbers[f], turned.back().nodes, turned.back().closed, 0});
     result.numbers.push_back(numbers[f]);

@@ -17,12 +17,12 @@ inline Centerline straight(float x, float y, float length = 0.5F) {
   return nodes;
 }
 
-/// Round the origin, one metre away; node 0 lies at `turns` of a turn.
+/// Round the origin, one metre away; node 0 lies at `turns` of a turn, and so does the last node.
 inline Centerline ring(double turns, double radius = 0.2) {
   constexpr double kTurn = 6.283185307179586;
   Centerline nodes{};
   for (std::size_t i = 0; i < kNodes; ++i) {
-    const double angle = kTurn * (turns + static_cast<double>(i) / kNodes);
+    const double angle = kTurn * (turns + static_cast<double>(i) / (kNodes - 1));
     nodes[i] = {static_cast<float>(radius * std::cos(angle)),
                 static_cast<float>(radius * std::sin(angle)), 1};
   }

@@ -88,9 +88,11 @@ TEST(KnownRopes, EndsKeepTheirOrderAndCrossingsFollow) {
   (void)known.recognise(ropes({straight(0, 0), straight(0, 0.2F)}));
   auto frame = ropes({backwards(straight(0, 0.2F)), straight(0, 0)});
   frame.crossings = {{.over = 0, .under = 1, .over_at_m = 0.1F, .under_at_m = 0.2F}};
+  frame.ropes[0].alternatives = {{.nodes = backwards(straight(0, 0.25F))}};
   const auto seen = known.recognise(std::move(frame));
   EXPECT_FLOAT_EQ(seen.found.ropes[1].nodes.front().x, 0);
   EXPECT_TRUE(seen.found.ropes[1].reversed);
+  EXPECT_FLOAT_EQ(seen.found.ropes[1].alternatives[0].nodes.front().x, 0);
   ASSERT_EQ(seen.found.crossings.size(), 1U);
   EXPECT_EQ(seen.found.crossings[0].over, 1);
   EXPECT_EQ(seen.found.crossings[0].under, 0);
@@ -103,11 +105,12 @@ TEST(KnownRopes, ARingKeepsItsFirstNode) {
   Ropes frame;
   frame.ropes = {rope(ring(0), true)};
   (void)known.recognise(frame);
-  frame.ropes = {rope(ring(0.5), true)};
+  frame.ropes = {rope(ring(1.0 / 3), true)};
   const auto seen = known.recognise(frame);
   EXPECT_THAT(seen.numbers, ElementsAre(1));
   EXPECT_NEAR(seen.found.ropes[0].nodes[0].x, 0.2, 1e-5);
-  EXPECT_EQ(seen.found.ropes[0].support[0], kNodes / 2);
+  EXPECT_EQ(seen.found.ropes[0].support[0], 42);
+  EXPECT_EQ(seen.found.ropes[0].nodes.front(), seen.found.ropes[0].nodes.back());
 }
 
 TEST(KnownRopes, RopesThatFlickerAreForgottenInTheEnd) {
