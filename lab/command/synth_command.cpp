@@ -106,9 +106,10 @@ struct Made {
 
 Result<void> make(const SynthOptions& options, const Job& job, const SynthFolder* folder,
                   synth::SyntheticFrame* shown, std::atomic<int>& kept) {
-  const auto known =
-      synth::identity(options.split, options.part, options.seed, job.index, job.frame);
+  auto known = synth::identity(options.split, options.part, options.seed, job.index, job.frame);
   if (!known) return known.error();
+  known->cords = options.cords;
+  known->matched = options.matched;
   const auto there = folder != nullptr ? folder->holds(*known) : Result<bool>(true);
   if (!there) return there.error();
   kept += folder != nullptr && *there ? 1 : 0;

@@ -54,7 +54,8 @@ Error not_made(const fs::path& out, const std::string& why) {
 bool is_of(const nlohmann::json& json, const synth::Meta& meta) {
   return json.is_object() && json.value("split", "") == meta.split &&
          json.value("part", "") == meta.part && json.value("seed", ~meta.seed) == meta.seed &&
-         json.value("index", ~meta.index) == meta.index && json.value("frame", -1) == meta.frame;
+         json.value("index", ~meta.index) == meta.index && json.value("frame", -1) == meta.frame &&
+         json.value("cords", false) == meta.cords && json.value("matched", false) == meta.matched;
 }
 
 }  // namespace
@@ -101,8 +102,9 @@ Result<bool> SynthFolder::holds(const synth::Meta& meta) const {
   if (!json.is_discarded() && is_of(json, meta)) return true;
   return Error{ErrorCode::kBadInput,
                fmt::format("synth: {}: expected nothing or the same frame (split {}, part {}, seed "
-                           "{}), found another; choose another folder",
-                           folder.string(), meta.split, meta.part, meta.seed)};
+                           "{}{}{}), found another; choose another folder",
+                           folder.string(), meta.split, meta.part, meta.seed,
+                           meta.cords ? ", with cords" : "", meta.matched ? ", matched" : "")};
 }
 
 Result<void> SynthFolder::save(const synth::SyntheticFrame& frame) const {

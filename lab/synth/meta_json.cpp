@@ -57,7 +57,9 @@ std::string meta_json(const Meta& meta) {
       {"part", meta.part},
       {"seed", meta.seed},
       {"index", meta.index},
-      {"frame", meta.frame}};
+      {"frame", meta.frame},
+      {"cords", meta.cords},
+      {"matched", meta.matched}};
   return json.dump(2) + "\n";
 }
 

@@ -289,6 +289,8 @@ Result<SyntheticFrame> Scene::taken(const Render& render) const {
   SyntheticFrame result;
   FrameFolder& folder = result.folder;
   result.meta = identity_of(key_, scenario_, render.frame);
+  result.meta.cords = render.cords;
+  result.meta.matched = render.matched;
   describe(stage_, *material_, result.meta);
   folder.name = folder_name(result.meta);
   folder.width = view.sensor->width;

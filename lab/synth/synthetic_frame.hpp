@@ -102,6 +102,8 @@ struct Meta {
   std::uint64_t seed = 0;
   std::uint64_t index = 0;
   int frame = 0;
+  bool cords = false;    ///< Render::cords,
+  bool matched = false;  ///< and Render::matched
 
   /// Gap, touch, coil or holes: where geometry has to guess.
   [[nodiscard]] bool hard() const {

@@ -20,7 +20,8 @@ TEST(MetaJson, HoldsEveryFieldOfARealFrame) {
                            "hard",           "easy",         "width_px",
                            "visible_share",  "depth_share",  "longest_gap_m",
                            "longest_hole_m", "split",        "part",
-                           "seed",           "index",        "frame"}) {
+                           "seed",           "index",        "frame",
+                           "cords",          "matched"}) {
     EXPECT_TRUE(json.contains(name)) << name;
   }
   EXPECT_EQ(json["defects"].size(), 18U);

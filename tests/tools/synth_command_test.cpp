@@ -154,6 +154,12 @@ TEST(SynthCommand, DoesNotMixSets) {
 
   EXPECT_EQ(outcome.exit_code, 2);
   EXPECT_THAT(outcome.err, HasSubstr("found another; choose another folder"));
+
+  auto cords = thesis;
+  cords.emplace_back("--cords");
+  const auto with_cords = run_flowdlo(scratch.path(), cords);
+  EXPECT_EQ(with_cords.exit_code, 2);
+  EXPECT_THAT(with_cords.err, HasSubstr("with cords), found another"));
 }
 
 TEST(SynthCommand, SeveralFramesOfOneSceneStandBesideEachOther) {
