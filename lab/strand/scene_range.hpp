@@ -21,10 +21,11 @@ namespace flowdlo::strand {
 /// Every so many-th scene is held out of fits.
 inline constexpr std::uint64_t kHeldOut = 4;
 
-/// As a fit is to see the rendered scene of that index: every third one's ropes have cords.
+/// As a fit is to see the rendered scene of that index: four of seven have ropes with cords.
 [[nodiscard]] inline synth::Render render_of(std::uint64_t index) {
-  constexpr std::uint64_t kCordsEvery = 3;
-  return {.cords = index % kCordsEvery == 2};
+  constexpr std::uint64_t kOf = 7;
+  constexpr std::uint64_t kWithCords = 4;
+  return {.cords = index % kOf < kWithCords};
 }
 
 struct SceneRange : survey::WideScenes {

@@ -52,8 +52,8 @@ double Cord::wound(int k, double along_radii) const {
 Cord draw_cord(Dice& dice) {
   Cord cord;
   constexpr std::array<int, 4> kStrands = {1, 2, 3, 4};
-  cord.strands = kStrands[dice.pick({45, 18, 25, 12})];
-  cord.turn_radii = cord.strands == 2 ? dice.uniform(6, 20) : dice.uniform(5.5, 14);
+  cord.strands = kStrands[dice.pick({32, 32, 23, 13})];
+  cord.turn_radii = cord.strands == 2 ? dice.log_uniform(5, 20) : dice.uniform(5.5, 14);
   cord.left_handed = dice.chance(0.3);
   constexpr std::array<Pattern, 4> kPatterns = {Pattern::kBraid, Pattern::kTracers,
                                                 Pattern::kSpeckles, Pattern::kBands};

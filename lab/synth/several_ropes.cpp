@@ -16,8 +16,10 @@ namespace flowdlo::synth {
 namespace {
 
 constexpr double kTurn = 2 * std::numbers::pi;
-constexpr int kPlacings = 40;          // of one rope
-constexpr double kTouching = 1.01;     // sums of two radii between ropes that touch
+constexpr int kPlacings = 40;       // of one rope
+constexpr double kTouching = 1.01;  // sums of two radii between ropes that touch
+constexpr double kBeside = 0.5 * (1 + kTouching);
+constexpr double kAlong = 0.25;        // share of ropes thrown that run along the first one
 constexpr double kSeparation = 0.975;  // sums of two radii between ropes, in space
 
 // How ropes may cross each other.
@@ -43,14 +45,23 @@ Gauge gauge_of(Dice& dice) {
   return gauge;
 }
 
+// How thick one rope is beside another one of its own kind.
+struct Sizes {
+  double least;
+  double most;
+};
+
+constexpr Sizes kTidySizes = {0.6, 1.6};
+constexpr Sizes kTangledSizes = {0.4, 2.5};
+
 // All of one kind, or each of its own.
-std::vector<Gauge> gauges_of(int count, Dice& dice) {
+std::vector<Gauge> gauges_of(int count, const Sizes& sizes, Dice& dice) {
   const Gauge first = gauge_of(dice);
   const bool alike = dice.chance(0.5);
   std::vector<Gauge> gauges{first};
   for (int k = 1; k < count; ++k) {
     Gauge gauge = first;
-    const double size = alike ? 1.0 : dice.log_uniform(0.6, 1.6);
+    const double size = alike ? 1.0 : dice.log_uniform(sizes.least, sizes.most);
     gauge.radius_m *= size;
     gauge.least_bend_m *= size;
     gauge.length_m *= dice.log_uniform(0.6, 1.6);
@@ -207,7 +218,7 @@ std::optional<FlatRope> placed(const std::vector<FlatRope>& others, const Gauge&
     bool cross = others.empty() || touching;
     const bool fits = std::all_of(others.begin(), others.end(), [&](const FlatRope& other) {
       const bool beside_it = touching && &other == &others.front();
-      return lies_well(other, rope, kTidy, beside_it ? 0.5 * (1 + kTouching) : clear, cross);
+      return lies_well(other, rope, kTidy, beside_it ? kBeside : clear, cross);
     });
     if (fits && (cross || !joined)) return rope;
   }
@@ -280,17 +291,24 @@ std::optional<FlatRope> thrown(std::string_view scenario, const std::vector<Flat
                                const Gauge& gauge, Dice& dice) {
   for (int k = 0; k < kPlacings; ++k) {
     FlatRope rope{{}, gauge, false};
-    auto shape = shaped(shape_of(scenario, others.empty(), dice), rope.gauge, dice);
-    if (!shape) continue;
-    rope.points = std::move(*shape);
-    rope.gauge.length_m = length_of(rope.points);
-    const double turn = dice.uniform(0, kTurn);
-    for (Vector2d& p : rope.points) p = Eigen::Rotation2Dd(turn) * p;
-    if (others.empty()) return rope;
-    put_near(rope.points, others, 0.4, dice);
-    bool cross = false;
+    const bool along = !others.empty() && dice.chance(kAlong);
+    if (along) {
+      rope.points = beside(others.front(), gauge, dice);
+      rope.gauge.length_m = length_of(rope.points);
+    } else {
+      auto shape = shaped(shape_of(scenario, others.empty(), dice), rope.gauge, dice);
+      if (!shape) continue;
+      rope.points = std::move(*shape);
+      rope.gauge.length_m = length_of(rope.points);
+      const double turn = dice.uniform(0, kTurn);
+      for (Vector2d& p : rope.points) p = Eigen::Rotation2Dd(turn) * p;
+      if (others.empty()) return rope;
+      put_near(rope.points, others, 0.4, dice);
+    }
+    bool cross = along;
     const bool fits = std::all_of(others.begin(), others.end(), [&](const FlatRope& other) {
-      return lies_well(other, rope, kTangled, 1.06, cross);
+      const bool beside_it = along && &other == &others.front();
+      return lies_well(other, rope, kTangled, beside_it ? kBeside : 1.06, cross);
     });
     if (fits && cross) return rope;
   }
@@ -360,7 +378,7 @@ std::optional<Ropes> finished(std::optional<Ropes> ropes, std::string_view scena
 }  // namespace
 
 std::optional<Ropes> try_several_ropes(std::string_view scenario, Dice& dice) {
-  const auto gauges = gauges_of(count_of(dice), dice);
+  const auto gauges = gauges_of(count_of(dice), kTidySizes, dice);
   const bool square_ends = dice.chance(0.5);
   return finished(scenario == "ropes-hanging" ? std::optional(in_the_air(gauges, dice))
                                               : on_a_table(scenario, gauges, dice),
@@ -369,7 +387,7 @@ std::optional<Ropes> try_several_ropes(std::string_view scenario, Dice& dice) {
 
 std::optional<Ropes> try_tangled_ropes(std::string_view scenario, Dice& dice) {
   const int count = 2 + static_cast<int>(dice.pick({0.35, 0.3, 0.2, 0.1, 0.05}));
-  const auto gauges = gauges_of(count, dice);
+  const auto gauges = gauges_of(count, kTangledSizes, dice);
   const bool square_ends = dice.chance(0.5);
   return finished(thrown_together(scenario, gauges, dice), scenario, gauges, square_ends);
 }
