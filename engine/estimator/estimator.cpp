@@ -311,7 +311,9 @@ Result<Estimate> Estimator::run(const Frame& frame, const Hints& hints, Tensors*
   });
 }
 
-Result<Ropes> Estimator::estimate_ropes(const Frame& frame) {
+Result<Ropes> Estimator::estimate_ropes(const Frame& frame) { return estimate_ropes(frame, {}); }
+
+Result<Ropes> Estimator::estimate_ropes(const Frame& frame, const std::vector<KnownRope>& before) {
   return guard::guarded("Estimator::estimate_ropes", [&]() -> Result<Ropes> {
     if (auto fine = usable(); !fine) return fine.error();
     if (auto valid = validate(frame); !valid) return valid.error();
@@ -321,7 +323,7 @@ Result<Ropes> Estimator::estimate_ropes(const Frame& frame) {
     auto ropes = estimator::estimate_each(
         frame, impl_->config.ropes,
         [&](const Frame& view, const estimator::Part& part, double share) {
-          return impl_->estimate(view, {}, nullptr, budget.part(share), part);
+          return impl_->estimate(view, part.hints, nullptr, budget.part(share), part);
         },
         [&](float rope_width_px) {
           // What tells ropes apart is never left out: by the mask alone there are other ropes, and
@@ -332,7 +334,8 @@ Result<Ropes> Estimator::estimate_ropes(const Frame& frame) {
           closer_left_out = closer_left_out || left_out;
           looked = true;
           return axes;
-        });
+        },
+        before);
     if (!ropes || !closer_left_out) return ropes;
     for (Estimate& rope : ropes->ropes) rope.left_out.push_back(LeftOut::kReadings);
     return ropes;

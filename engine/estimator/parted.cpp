@@ -329,9 +329,10 @@ Result<Parted> part_labelled(const Frame& frame) {
 
 }  // namespace
 
-Result<Parted> part_ropes(const Frame& frame, int ropes, const SeeAxes& see) {
+Result<Parted> part_ropes(const Frame& frame, int ropes, const SeeAxes& see,
+                          const std::vector<path::Path>& before) {
   if (!frame.instances.empty()) return part_labelled(frame);
-  auto read = read_ropes(frame, ropes, see);
+  auto read = read_ropes(frame, ropes, see, before);
   if (!read) return read.error();
   Parted parted;
   parted.paths = std::move(read->paths);

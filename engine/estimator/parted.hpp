@@ -28,9 +28,10 @@ struct Parted {
 /// With labels in the frame each that covers more than a speck of the mask is one rope; otherwise
 /// the mask is read as `ropes` of them, 0: as many as it shows. Where two cross, the pixels are
 /// given to the one that is nearer beside the crossing. `see` may show the strand field
-/// (`read_ropes`); null: the mask alone is read. Expects a valid frame. Fails as path::trace_ropes
-/// does.
-[[nodiscard]] Result<Parted> part_ropes(const Frame& frame, int ropes, const SeeAxes& see = {});
+/// (`read_ropes`); null: the mask alone is read. `before` as there. Expects a valid frame. Fails as
+/// path::trace_ropes does.
+[[nodiscard]] Result<Parted> part_ropes(const Frame& frame, int ropes, const SeeAxes& see = {},
+                                        const std::vector<path::Path>& before = {});
 
 /// Ropes::instances of a frame that is one rope.
 [[nodiscard]] std::vector<std::uint16_t> one_instance(const Frame& frame);

@@ -24,12 +24,9 @@ struct RopeReadings {
 /// the mask's reading, whose ropes are their witness. Where one of them is not told apart surely,
 /// by heed of a closer look (kCloser), if there is one (field::looks_closer), as well, either's
 /// opinion by half. The mask's
-/// (`path::trace_ropes`) where it is noise, or `see` shows nothing or no ropes. Expects a valid
-/// frame. Fails as path::trace_ropes does of the mask.
-[[nodiscard]] Result<RopeReadings> read_ropes(const Frame& frame, int ropes, const SeeAxes& see);
-
-/// Whether two paths are one rope's: from end to end, in either direction, never farther apart
-/// than a width and a half.
-[[nodiscard]] bool same_rope(const path::Path& a, const path::Path& b, float width_px);
+/// (`path::trace_ropes`) where it is noise, or `see` shows nothing or no ropes. `before` as there.
+/// Expects a valid frame. Fails as path::trace_ropes does of the mask.
+[[nodiscard]] Result<RopeReadings> read_ropes(const Frame& frame, int ropes, const SeeAxes& see,
+                                              const std::vector<path::Path>& before = {});
 
 }  // namespace flowdlo::estimator

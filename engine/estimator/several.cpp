@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -14,6 +16,8 @@
 #include "estimator/rope_views.hpp"
 #include "estimator/stopwatch.hpp"
 #include "field/ridge.hpp"
+#include "geometry/camera.hpp"
+#include "geometry/polyline.hpp"
 
 namespace flowdlo::estimator {
 namespace {
@@ -21,8 +25,56 @@ namespace {
 // Path::ends_met from which on what seems to be a ring has two ends that touch.
 constexpr float kEndsMet = field::kTipPeak;
 
-Result<void> one_rope(const Frame& frame, const EstimateOne& one, Ropes& result) {
-  auto rope = one(frame, {}, 1);
+// Where a rope of the frame before lies in this one; nothing of one that cannot be drawn.
+std::optional<path::Path> path_of(const KnownRope& known, const Intrinsics& camera) {
+  if (!geometry::all_finite(known.nodes)) return std::nullopt;
+  path::Path path;
+  for (const Point3& node : known.nodes) {
+    if (!(node.z > 0)) return std::nullopt;
+    path.points_px.push_back(geometry::project(camera, node));
+  }
+  path.closed = known.closed;
+  return path;
+}
+
+std::vector<path::Path> paths_of(const std::vector<KnownRope>& ropes, const Intrinsics& camera) {
+  std::vector<path::Path> paths;
+  for (const KnownRope& rope : ropes) {
+    if (auto path = path_of(rope, camera)) paths.push_back(*std::move(path));
+  }
+  return paths;
+}
+
+double apart_px(const std::vector<Eigen::Vector2f>& a, const std::vector<Eigen::Vector2f>& b) {
+  double sum = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) sum += static_cast<double>((a[i] - b[i]).norm());
+  return sum / static_cast<double>(a.size());
+}
+
+// The nodes of the rope of the frame before that lies nearest to a path, whichever end comes first.
+std::optional<Centerline> nearest(const path::Path& path, const std::vector<KnownRope>& before,
+                                  const Intrinsics& camera) {
+  const auto points = geometry::resample(path.points_px, static_cast<int>(kNodes));
+  const std::vector<Eigen::Vector2f> back(points.rbegin(), points.rend());
+  std::optional<Centerline> found;
+  double least_px = std::numeric_limits<double>::max();
+  for (const KnownRope& known : before) {
+    const auto other = path_of(known, camera);
+    if (!other) continue;
+    const double px =
+        std::min(apart_px(points, other->points_px), apart_px(back, other->points_px));
+    if (px >= least_px) continue;
+    least_px = px;
+    found = known.nodes;
+  }
+  return found;
+}
+
+Result<void> one_rope(const Frame& frame, const EstimateOne& one,
+                      const std::vector<KnownRope>& before, Ropes& result) {
+  Part part;
+  if (before.size() == 1) part.hints.previous = before.front().nodes;
+  auto rope = one(frame, part, 1);
   if (!rope) return rope.error();
   result.ropes.push_back(*std::move(rope));
   result.instances = one_instance(frame);
@@ -30,16 +82,17 @@ Result<void> one_rope(const Frame& frame, const EstimateOne& one, Ropes& result)
 }
 
 Result<void> several_ropes(const Frame& frame, int ropes, const EstimateOne& one,
-                           const SeeAxes& see, Ropes& result) {
+                           const SeeAxes& see, const std::vector<KnownRope>& before,
+                           Ropes& result) {
   Stopwatch stage;
-  const auto parted = part_ropes(frame, ropes, see);
+  const auto parted = part_ropes(frame, ropes, see, paths_of(before, frame.intrinsics));
   if (!parted) return parted.error();
   stage.lap(result.parting_ms);
   const std::size_t count = parted->paths.ropes.size();
   const path::Path& first = parted->paths.ropes.front();
   const bool ring = first.closed && first.ends_met < kEndsMet;
   // All readings of a rope that is alone are the whole frame's; they know rings that nothing parts.
-  if (count == 1 && frame.instances.empty() && !ring) return one_rope(frame, one, result);
+  if (count == 1 && frame.instances.empty() && !ring) return one_rope(frame, one, before, result);
   std::vector<std::uint16_t> number(count + 1,
                                     0);  // of each label among those that have an estimate
   std::optional<Error> first_fault;
@@ -52,6 +105,7 @@ Result<void> several_ropes(const Frame& frame, int ropes, const EstimateOne& one
     const bool labelled = !frame.instances.empty() && !closed;
     const ToldApart told{parted->witness[i], parted->paths.lead[i]};
     Part part{.traced = labelled ? nullptr : &traced};
+    if (labelled) part.hints.previous = nearest(parted->paths.ropes[i], before, frame.intrinsics);
     // Where a rope is alone there was nothing to tell apart.
     const bool one_of_several = count > 1 || closed;
     if (one_of_several) {
@@ -82,11 +136,12 @@ Result<void> several_ropes(const Frame& frame, int ropes, const EstimateOne& one
 }  // namespace
 
 Result<Ropes> estimate_each(const Frame& frame, int ropes, const EstimateOne& one,
-                            const SeeAxes& see) {
+                            const SeeAxes& see, const std::vector<KnownRope>& before) {
   Stopwatch total;
   Ropes result;
   const bool alone = ropes == 1 && frame.instances.empty();
-  auto done = alone ? one_rope(frame, one, result) : several_ropes(frame, ropes, one, see, result);
+  auto done = alone ? one_rope(frame, one, before, result)
+                    : several_ropes(frame, ropes, one, see, before, result);
   if (!done) return done.error();
   result.crossings = rope_crossings(result.ropes, frame);
   total.lap(result.total_ms);

@@ -84,7 +84,7 @@ Result<Answer> trace_mask(const Frame& frame, const Region* cleaned, int ropes, 
         if (!graph) return graph.error();
         Strands strands = make_strands(*graph, *region, seen);
         strands.several = ropes != 1;
-        return read(strands, *region, seen);
+        return read(strands, *region, seen, copy);
       });
 }
 
@@ -117,18 +117,19 @@ Result<Traversals> trace(const Frame& frame, const TraceConfig& config) {
   return guard::guarded("path", [&] {
     return trace_mask<Traversals>(
         frame, config.cleaned.get(), 1,
-        [&](const Strands& strands, const Region& region, const Frame& seen) {
+        [&](const Strands& strands, const Region& region, const Frame& seen, const Reduced*) {
           return rank(strands, region, seen, config);
         });
   });
 }
 
-Result<RopePaths> trace_ropes(const Frame& frame, int ropes) {
+Result<RopePaths> trace_ropes(const Frame& frame, int ropes, const std::vector<Path>& before) {
   return guard::guarded("path", [&] {
     return trace_mask<RopePaths>(
         frame, nullptr, ropes,
-        [&](const Strands& strands, const Region& region, const Frame& seen) {
-          return rope_paths(strands, prices_of(strands, region, seen), region, seen, ropes);
+        [&](const Strands& strands, const Region& region, const Frame& seen, const Reduced* copy) {
+          return rope_paths(strands, prices_of(strands, region, seen), region, seen,
+                            {ropes, copy == nullptr ? before : copy->paths_in(before)});
         });
   });
 }

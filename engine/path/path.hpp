@@ -59,7 +59,7 @@ struct RopePaths {
   std::vector<float> lead;  ///< [ropes] by how much any set without that rope costs more
   float rope_width_px = 0;  ///< median width of the mask across the skeleton
   bool filtered = false;    ///< the mask is noise or texture; what a filter left of it was read
-  std::vector<RopesGuess> guesses{};  ///< the likeliest sets, that one first
+  std::vector<RopesGuess> guesses{};  ///< the likeliest sets by this frame alone, best first
 };
 
 /// Costs by which a set of ropes may trail another one to be told of in RopePaths::lead.
@@ -85,8 +85,15 @@ struct Glance {
 [[nodiscard]] Result<Traversals> trace(const Frame& frame, const TraceConfig& config = {});
 
 /// The cheapest set of ropes that explains the mask: so many, or, with 0, as many as cost least.
-/// Expects a valid frame and `ropes` in 0..kMostRopes. Fails as `trace` does, and with kNoPath
-/// where the mask cannot be that many ropes, or only more than kMostRopes.
-[[nodiscard]] Result<RopePaths> trace_ropes(const Frame& frame, int ropes);
+/// `before` is evidence: the ropes of the frame before, in this one's pixels. Of sets that the
+/// frame hardly tells apart the one is taken that has them. Expects a valid frame and `ropes` in
+/// 0..kMostRopes. Fails as `trace` does, and with kNoPath where the mask cannot be that many ropes,
+/// or only more than kMostRopes.
+[[nodiscard]] Result<RopePaths> trace_ropes(const Frame& frame, int ropes,
+                                            const std::vector<Path>& before = {});
+
+/// Whether two paths are one rope's: from end to end, in either direction, never farther apart than
+/// a width and a half.
+[[nodiscard]] bool same_rope(const Path& a, const Path& b, float width_px);
 
 }  // namespace flowdlo::path

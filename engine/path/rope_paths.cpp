@@ -5,21 +5,49 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <map>
 #include <utility>
 #include <vector>
 
 #include "flowdlo/config.hpp"
+#include "geometry/polyline.hpp"
 #include "path/assemble.hpp"
 #include "path/search.hpp"
 
 namespace flowdlo::path {
 namespace {
 
+using Eigen::Vector2f;
+using Points = std::vector<Vector2f>;
+
 constexpr std::size_t kSets = 24;
 // Who says how many ropes there are is right rather than wrong, as the logarithm of the odds.
 constexpr float kNumberKnown = 3;
+// Of each rope of a set that the frame before has not, and of each of its ropes that the set has
+// not: two ropes that exchange what lies beyond a crossing cost 8, as much as a way of one rope
+// does that is not the one before (Hints::previous).
+constexpr float kChanged = 2;
+constexpr int kCompared = 64;         // points of a path that are held against another one's
+constexpr float kSameWidths = 1.5F;   // between two paths of one rope, at most
 constexpr float kLeastShare = 0.02F;  // of a set that is worth telling of, beside the first
+
+float apart_px(const Points& a, const Points& b) {
+  float most = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) most = std::max(most, (a[i] - b[i]).norm());
+  return most;
+}
+
+// How far a point of one path is from all of another one, at most.
+float strays_px(const Points& from, const Points& to) {
+  float most = 0;
+  for (const Vector2f& p : from) {
+    float least = std::numeric_limits<float>::max();
+    for (const Vector2f& q : to) least = std::min(least, (p - q).squaredNorm());
+    most = std::max(most, least);
+  }
+  return std::sqrt(most);
+}
 
 // By how much the cheapest of the sets that has no such way costs more than `cost`, at most
 // kMostLead either way.
@@ -78,6 +106,42 @@ class Drawing {
   std::map<std::pair<std::vector<int>, bool>, Path> drawn_;
 };
 
+// What a set costs more for what is not as in the frame before.
+float changed(const RopeSet& set, const std::vector<Path>& before, float width_px,
+              Drawing& drawing) {
+  std::vector<bool> stayed(before.size(), false);
+  float cost = 0;
+  for (const Traversal& way : set.ways) {
+    const Path& path = drawing.of(way);
+    std::size_t same = 0;
+    while (same < before.size() && (stayed[same] || !same_rope(path, before[same], width_px))) {
+      ++same;
+    }
+    if (same < before.size()) {
+      stayed[same] = true;
+    } else {
+      cost += kChanged;
+    }
+  }
+  return cost + kChanged * static_cast<float>(std::count(stayed.begin(), stayed.end(), false));
+}
+
+// Of sets that come cheapest first the one that is cheapest beside the frame before.
+const RopeSet& cheapest(const std::vector<RopeSet>& sets, const std::vector<Path>& before,
+                        float width_px, Drawing& drawing) {
+  if (before.empty()) return sets.front();
+  const RopeSet* best = nullptr;
+  float least = std::numeric_limits<float>::max();
+  for (const RopeSet& set : sets) {
+    if (set.cost >= least) break;
+    const float cost = set.cost + changed(set, before, width_px, drawing);
+    if (cost >= least) continue;
+    least = cost;
+    best = &set;
+  }
+  return best != nullptr ? *best : sets.front();
+}
+
 // The likeliest of sets that come cheapest first: costs are negative logarithms.
 std::vector<RopesGuess> guesses_of(const std::vector<RopeSet>& sets, Drawing& drawing) {
   std::vector<RopesGuess> guesses;
@@ -105,27 +169,41 @@ Error no_set(int ropes, const Strands& strands) {
 
 }  // namespace
 
+bool same_rope(const Path& a, const Path& b, float width_px) {
+  if (a.closed != b.closed || a.points_px.size() < 2 || b.points_px.size() < 2) return false;
+  const float most = kSameWidths * width_px;
+  if (a.closed) {  // a ring begins anywhere
+    return strays_px(a.points_px, b.points_px) <= most &&
+           strays_px(b.points_px, a.points_px) <= most;
+  }
+  const Points one = geometry::resample(a.points_px, kCompared);
+  Points two = geometry::resample(b.points_px, kCompared);
+  if (apart_px(one, two) <= most) return true;
+  std::reverse(two.begin(), two.end());
+  return apart_px(one, two) <= most;
+}
+
 Result<RopePaths> rope_paths(const Strands& strands, const Prices& prices, const Region& region,
-                             const Frame& frame, int ropes) {
-  const auto sets = search_sets(strands, prices, ropes, kSets);
-  if (sets.empty()) return no_set(ropes, strands);
+                             const Frame& frame, const KnownRopes& known) {
+  const auto sets = search_sets(strands, prices, known.number, kSets);
+  if (sets.empty()) return no_set(known.number, strands);
   // A number that the strands speak against more than its giver is to be trusted.
   const auto of_any_number =
-      ropes > 0 ? search_sets(strands, prices, 0, kSets) : std::vector<RopeSet>();
+      known.number > 0 ? search_sets(strands, prices, 0, kSets) : std::vector<RopeSet>();
   RopePaths result;
   result.rope_width_px = strands.width_px;
   result.filtered = region.filtered;
   Drawing drawing(strands, region, frame);
-  for (const Traversal& way : sets.front().ways) {
+  const RopeSet& set = cheapest(sets, known.before, strands.width_px, drawing);
+  for (const Traversal& way : set.ways) {
     Path path = drawing.of(way);
     if (path.points_px.size() < 2) continue;
-    path.score = -static_cast<double>(sets.front().cost);
+    path.score = -static_cast<double>(set.cost);
     result.ropes.push_back(std::move(path));
-    const float cost = sets.front().cost;
-    result.lead.push_back(std::min(lead_of(way, sets, cost, strands),
-                                   lead_of(way, of_any_number, cost, strands) + kNumberKnown));
+    result.lead.push_back(std::min(lead_of(way, sets, set.cost, strands),
+                                   lead_of(way, of_any_number, set.cost, strands) + kNumberKnown));
   }
-  if (result.ropes.empty()) return no_set(ropes, strands);
+  if (result.ropes.empty()) return no_set(known.number, strands);
   result.guesses = guesses_of(sets, drawing);
   if (result.ropes.size() <= kMostRopes) return result;
   return Error{ErrorCode::kNoPath,

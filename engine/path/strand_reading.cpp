@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "geometry/polyline.hpp"
@@ -153,11 +154,7 @@ field::Axes axes_in(const Reduced& copy, field::Axes axes) {
 
 // Guesses of a frame in a copy of it.
 std::vector<RopesGuess> guesses_in(const Reduced& copy, std::vector<RopesGuess> guesses) {
-  for (RopesGuess& guess : guesses) {
-    for (Path& path : guess.ropes) {
-      for (Vector2f& p : path.points_px) p = copy.place_of(p);
-    }
-  }
+  for (RopesGuess& guess : guesses) guess.ropes = copy.paths_in(std::move(guess.ropes));
   return guesses;
 }
 
@@ -196,7 +193,8 @@ Result<Traversals> trace_strands(const Frame& frame, const field::Axes& axes,
 }
 
 Result<RopePaths> trace_ropes(const Frame& frame, const field::Axes& axes, int ropes,
-                              const std::vector<RopesGuess>& guesses) {
+                              const std::vector<RopesGuess>& guesses,
+                              const std::vector<Path>& before) {
   const auto trace = [&](const Frame& seen, const field::Axes& lines,
                          const Reduced* copy) -> Result<RopePaths> {
     const auto region = clean(seen, ropes);
@@ -204,7 +202,8 @@ Result<RopePaths> trace_ropes(const Frame& frame, const field::Axes& axes, int r
     const Strands strands = strands_of(seen, lines, *region, ropes != 1);
     const Opinion opinion =
         opinion_on(strands, copy == nullptr ? guesses : guesses_in(*copy, guesses), *region);
-    return rope_paths(strands, prices_of(strands, *region, seen, opinion), *region, seen, ropes);
+    return rope_paths(strands, prices_of(strands, *region, seen, opinion), *region, seen,
+                      {ropes, copy == nullptr ? before : copy->paths_in(before)});
   };
   return trace_axes<RopePaths>(frame, axes, trace);
 }

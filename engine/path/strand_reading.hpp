@@ -26,6 +26,7 @@ namespace flowdlo::path {
 /// As `trace_ropes`, of the axes that a network sees in the frame; ropes rather go on where those
 /// `guesses` do that other readings of the frame gave.
 [[nodiscard]] Result<RopePaths> trace_ropes(const Frame& frame, const field::Axes& axes, int ropes,
-                                            const std::vector<RopesGuess>& guesses = {});
+                                            const std::vector<RopesGuess>& guesses = {},
+                                            const std::vector<Path>& before = {});
 
 }  // namespace flowdlo::path

@@ -51,6 +51,14 @@ class Reduced {
     return window_.place_of(p);
   }
 
+  /// Paths of the original in the copy.
+  [[nodiscard]] std::vector<Path> paths_in(std::vector<Path> paths) const {
+    for (Path& path : paths) {
+      for (Eigen::Vector2f& p : path.points_px) p = place_of(p);
+    }
+    return paths;
+  }
+
   /// Brings what was traced in the copy back to the pixels of the original.
   void restore(Traversals& traversals) const { window_.restore(traversals, original_); }
   void restore(RopePaths& paths) const { window_.restore(paths, original_); }

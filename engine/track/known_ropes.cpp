@@ -122,6 +122,14 @@ TrackedRopes KnownRopes::recognise(Ropes ropes) {
   return result;
 }
 
+std::vector<KnownRope> KnownRopes::last_seen() const {
+  std::vector<KnownRope> ropes;
+  for (const Known& known : known_) {
+    if (known.missed == 0) ropes.push_back({known.nodes, known.closed});
+  }
+  return ropes;
+}
+
 void KnownRopes::miss_all() { miss(std::exchange(known_, {})); }
 
 void KnownRopes::miss(std::vector<Known> unseen) {

@@ -16,6 +16,9 @@ class KnownRopes {
   /// from now on.
   [[nodiscard]] TrackedRopes recognise(Ropes ropes);
 
+  /// Those of the last frame.
+  [[nodiscard]] std::vector<KnownRope> last_seen() const;
+
   /// A frame that shows none.
   void miss_all();
 

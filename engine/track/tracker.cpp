@@ -94,7 +94,7 @@ Result<Estimate> Tracker::estimate(const Frame& frame, const Hints& hints, Tenso
 Result<TrackedRopes> Tracker::estimate_ropes(const Frame& frame) {
   return guard::guarded("Tracker::estimate_ropes", [&]() -> Result<TrackedRopes> {
     if (auto fine = usable(); !fine) return fine.error();
-    auto ropes = impl_->estimator.estimate_ropes(frame);
+    auto ropes = impl_->estimator.estimate_ropes(frame, impl_->ropes.last_seen());
     if (ropes) return impl_->ropes.recognise(*std::move(ropes));
     impl_->ropes.miss_all();
     return ropes.error();

@@ -166,7 +166,7 @@ struct Estimate {
   /// A doubt about the mask (`one_rope`) leaves at most 0.25 of it. Of one rope of several it is
   /// the probability that the rope is one of the frame's as well (docs/ropes.md).
   float confidence = 0;
-  bool closed = false;  ///< a ring without ends: node 63 lies next to node 0
+  bool closed = false;  ///< a ring without ends: node 63 lies where node 0 does
   OneRope one_rope;
   std::vector<LeftOut> left_out;          ///< for want of time; empty without Config::budget_ms
   float mask_agreement = 0;               ///< S_M of `nodes`, Eq. (3.32), in [0, 1]

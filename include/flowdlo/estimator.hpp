@@ -66,6 +66,14 @@ class FLOWDLO_EXPORT Estimator {
   /// asked for.
   [[nodiscard]] Result<Ropes> estimate_ropes(const Frame& frame);
 
+  /// The same by heed of the ropes of the frame before, as Tracker::estimate_ropes has it: of sets
+  /// of ropes that the frame hardly tells apart the one is taken that has them; an only
+  /// rope, and one that a label tells apart, has the nearest for Hints::previous. Ropes that lie
+  /// elsewhere by more than a width and a half are no evidence, nor are those with a node that is
+  /// not finite. `confidence` stays what the frame alone says.
+  [[nodiscard]] Result<Ropes> estimate_ropes(const Frame& frame,
+                                             const std::vector<KnownRope>& before);
+
   /// "cpu", or the name of the Vulkan device in use. With Config::device "auto" a lost device is
   /// followed by "cpu"; a device is tried again after 1 s, 2 s, 4 s and so on up to 5 minutes, on a
   /// thread of its own, and taken for the next frame once its self-test passes. Moved from: empty.

@@ -301,7 +301,7 @@ typedef struct flowdlo_estimate {
   double gate_ms;
   double total_ms;
   uint32_t left_out; /* FLOWDLO_LEFT_OUT_ bits; 0: nothing */
-  int32_t closed;    /* 1: a ring without ends: node 63 lies next to node 0 */
+  int32_t closed;    /* 1: a ring without ends: node 63 lies where node 0 does */
   int32_t origin;    /* FLOWDLO_ORIGIN_: which of all candidates the nodes are */
   int32_t reserved;  /* 0 */
 } flowdlo_estimate;

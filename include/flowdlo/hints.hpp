@@ -21,6 +21,12 @@ struct Pixel {
 /// the camera frame, metres, in front of the camera (z > 0).
 using Place = std::variant<Pixel, Point3>;
 
+/// A rope of the frame before: Estimate::nodes and Estimate::closed.
+struct KnownRope {
+  Centerline nodes{};
+  bool closed = false;
+};
+
 /// All of it may be left out. Hints decide two things and no other: which way through the mask is
 /// taken, and where it begins. `confidence` and `sigma_m` are what the frame alone says of that
 /// way. Where hints say nothing, node 0 is the end of smaller x; of smaller y, then z, where those

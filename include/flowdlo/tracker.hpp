@@ -54,9 +54,10 @@ class FLOWDLO_EXPORT Tracker {
   /// The same, and copies every tensor of spec section 3 to `tensors`.
   [[nodiscard]] Result<Estimate> estimate(const Frame& frame, const Hints& hints, Tensors& tensors);
 
-  /// Estimator::estimate_ropes, told by number. Which rope is which is decided for all at once, so
-  /// that they move least in total (the mean distance of the nodes, whichever end comes first). A
-  /// frame in which no rope is found fails as there, and every rope is missing from it.
+  /// Estimator::estimate_ropes by heed of the frame before, told by number. Which rope is which is
+  /// decided for all at once, so that they move least in total (the mean distance of the nodes,
+  /// whichever end comes first). A frame in which no rope is found fails as there, and every rope
+  /// is missing from it.
   [[nodiscard]] Result<TrackedRopes> estimate_ropes(const Frame& frame);
 
   /// Forgets every rope; numbers go on from where they were.

@@ -1,5 +1,6 @@
 #include "reports/rope_identity.hpp"
 
+#include <algorithm>
 #include <cstddef>
 #include <optional>
 
@@ -10,6 +11,7 @@ namespace flowdlo::lab {
 namespace {
 
 constexpr double kBegin_m = 0.01;  // node 0 of a ring may move that far beside the ring
+constexpr double kJump_m = 0.01;
 
 track::Alignment align(const Estimate& now, const Estimate& before) {
   return track::align(now.nodes, now.closed && before.closed, before.nodes);
@@ -17,9 +19,13 @@ track::Alignment align(const Estimate& now, const Estimate& before) {
 
 }  // namespace
 
-void RopeIdentity::add(const std::vector<Estimate>& found, const std::vector<int>& numbers) {
+void RopeIdentity::add(const std::vector<Estimate>& found, const std::vector<int>& numbers,
+                       const std::vector<Centerline>& truths) {
   for (std::size_t i = 0; i < found.size(); ++i) {
     ++ropes;
+    wrong += std::none_of(truths.begin(), truths.end(), [&](const Centerline& truth) {
+      return track::align(found[i].nodes, found[i].closed, truth).apart_m <= kJump_m;
+    });
     std::size_t nearest = 0;
     std::optional<track::Alignment> alignment;
     for (std::size_t k = 0; k < before_.size(); ++k) {
@@ -30,6 +36,7 @@ void RopeIdentity::add(const std::vector<Estimate>& found, const std::vector<int
     }
     if (!alignment) continue;
     const Estimate& same = before_[nearest];
+    jumped += alignment->apart_m > kJump_m ? 1 : 0;
     mistaken += numbers_[nearest] != numbers[i] ? 1 : 0;
     if (found[i].closed && same.closed) {
       const double moved_m = geometry::distance(found[i].nodes.front(), same.nodes.front());
@@ -47,6 +54,8 @@ void RopeIdentity::add(const RopeIdentity& other) {
   mistaken += other.mistaken;
   exchanged += other.exchanged;
   begun += other.begun;
+  jumped += other.jumped;
+  wrong += other.wrong;
 }
 
 }  // namespace flowdlo::lab

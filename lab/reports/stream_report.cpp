@@ -38,6 +38,7 @@ struct Options {
   bool list = false;
   bool mislead = false;
   bool ropes = false;
+  bool labels = false;
 };
 
 /// One scene under each condition.
@@ -153,14 +154,18 @@ RopeStreams watch_ropes(const Options& options, std::uint64_t index, Estimator& 
     const auto scene = options.wide.make(index, render, synth::Split::kSeveral);
     if (!scene) break;
     streams.shown = static_cast<int>(scene->ropes.size());
-    const auto alone = tracker->estimator()->estimate_ropes(scene->frame());
-    const auto tracked = tracker->estimate_ropes(scene->frame());
+    Frame frame = scene->frame();
+    if (!options.labels) frame.instances = {};
+    const auto alone = tracker->estimator()->estimate_ropes(frame);
+    const auto tracked = tracker->estimate_ropes(frame);
     if (!alone || !tracked) continue;
     ++streams.frames;
     std::vector<int> indices(alone->ropes.size());
     std::iota(indices.begin(), indices.end(), 0);
-    streams.alone.add(alone->ropes, indices);
-    streams.tracked.add(tracked->found.ropes, tracked->numbers);
+    std::vector<Centerline> truths;
+    for (const auto& rope : scene->ropes) truths.push_back(rope.nodes);
+    streams.alone.add(alone->ropes, indices, truths);
+    streams.tracked.add(tracked->found.ropes, tracked->numbers, truths);
     for (const int number : tracked->numbers) streams.given = std::max(streams.given, number);
   }
   estimator = std::move(*tracker->estimator());
@@ -188,12 +193,13 @@ int report_ropes(const Options& options) {
     sum.alone.add(one.alone);
     sum.tracked.add(one.tracked);
   }
-  survey::Table table(
-      {"told by", "ropes", "another rope's number", "ends exchanged", "rings begun elsewhere"});
+  survey::Table table({"told by", "ropes", "another rope's number", "ends exchanged",
+                       "rings begun elsewhere", "jumps over 1 cm", "over 1 cm off"});
   for (const auto& [name, of] :
        {std::pair("length, longest first", &sum.alone), std::pair("number", &sum.tracked)}) {
     table.add({name, std::to_string(of->ropes), std::to_string(of->mistaken),
-               std::to_string(of->exchanged), std::to_string(of->begun)});
+               std::to_string(of->exchanged), std::to_string(of->begun), std::to_string(of->jumped),
+               std::to_string(of->wrong)});
   }
   fmt::print("{}{} frames of {} scenes; of their {} ropes {} numbers were given\n", table.text(),
              sum.frames, all.size(), sum.shown, sum.given);
@@ -267,6 +273,7 @@ void add_stream_report(CLI::App& program, support::ExitCode& exit_code) {
   app.add_flag("--list", options->list, "Every scene and every jump on stderr");
   app.add_flag("--ropes", options->ropes,
                "Scenes of several ropes: by length as they come, and by the tracker's numbers");
+  app.add_flag("--labels", options->labels, "With --ropes: each pixel is labelled with its rope");
   support::set_action(app, exit_code, [options] {
     return options->ropes ? report_ropes(*options) : report(*options);
   });

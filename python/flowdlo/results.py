@@ -102,7 +102,7 @@ class Estimate:
     draws: what the gate saw of each draw.
     alternatives: traversals that came close, best first; may be empty.
     timings: milliseconds of each stage.
-    closed: a ring without ends: node 63 lies next to node 0.
+    closed: a ring without ends: node 63 lies where node 0 does.
     reversed: a hint made node 0 the end that it would not be without it.
     switched: a hint made another hypothesis the answer.
     left_out: what `budget_ms` left no time for, of "model", "strand_field", "readings".

@@ -18,30 +18,6 @@ namespace {
 using lab::make_ropes;
 using lab::RopesKind;
 
-// A path along a straight line.
-path::Path line(const Eigen::Vector2f& from, const Eigen::Vector2f& to) {
-  path::Path path;
-  for (int i = 0; i <= 100; ++i) {
-    path.points_px.emplace_back(from + (to - from) * static_cast<float>(i) / 100);
-  }
-  path.bridged.assign(path.points_px.size(), 0);
-  return path;
-}
-
-TEST(RopeReadings, OneRopeIsTheSameInEitherDirectionAndNoneThatEndsElsewhere) {
-  const path::Path rope = line({10, 10}, {200, 40});
-  EXPECT_TRUE(estimator::same_rope(rope, line({12, 14}, {198, 37}), 8));
-  EXPECT_TRUE(estimator::same_rope(rope, line({200, 40}, {10, 10}), 8));
-  EXPECT_FALSE(estimator::same_rope(rope, line({10, 10}, {150, 32}), 8));
-  EXPECT_FALSE(estimator::same_rope(rope, line({10, 30}, {200, 60}), 8));
-  path::Path ring = line({10, 10}, {200, 40});
-  ring.closed = true;
-  EXPECT_FALSE(estimator::same_rope(rope, ring, 8));
-  path::Path turned = ring;
-  std::rotate(turned.points_px.begin(), turned.points_px.begin() + 30, turned.points_px.end());
-  EXPECT_TRUE(estimator::same_rope(ring, turned, 8));
-}
-
 TEST(RopeReadings, WithoutAFieldTheMasksRopesHaveNoWitness) {
   const auto scene = make_ropes(RopesKind::kCrossing, 2, 0);
   const auto blind = [](float) { return std::optional<field::Axes>(); };

@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <limits>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 #include "estimator/parted.hpp"
@@ -214,6 +216,42 @@ TEST(EstimateRopes, ABudgetLeavesTheFieldItsWord) {
   for (const Estimate& rope : soon.ropes) {
     EXPECT_EQ(std::count(rope.left_out.begin(), rope.left_out.end(), LeftOut::kField), 0);
   }
+}
+
+TEST(EstimateRopes, ByHeedOfTheFrameBeforeAClearFrameIsWhatItIsWithout) {
+  const auto scene = make_ropes(RopesKind::kCrossing, 3, 0);
+  auto estimator = make_with_field(0);
+  const Ropes alone = estimate(estimator, scene.frame());
+  std::vector<KnownRope> same;
+  for (const Estimate& rope : alone.ropes) same.push_back({rope.nodes, rope.closed});
+  std::vector<KnownRope> crossed = same;  // ends where no rope has both
+  std::swap(crossed[0].nodes.front(), crossed[1].nodes.front());
+  std::vector<KnownRope> broken = same;
+  broken[0].nodes[7].x = std::numeric_limits<float>::quiet_NaN();
+  broken[1].nodes[3].z = -1;
+  for (const auto& before : {std::vector<KnownRope>(), same, crossed, broken}) {
+    const auto told = estimator.estimate_ropes(scene.frame(), before);
+    ASSERT_TRUE(told) << told.error().message;
+    ASSERT_EQ(told->ropes.size(), alone.ropes.size());
+    for (std::size_t i = 0; i < alone.ropes.size(); ++i) {
+      EXPECT_EQ(told->ropes[i].nodes, alone.ropes[i].nodes);
+      EXPECT_EQ(told->ropes[i].confidence, alone.ropes[i].confidence);
+    }
+  }
+}
+
+TEST(EstimateRopes, AnOnlyRopeRunsAsItDidInTheFrameBefore) {
+  const WaveFrame wave;
+  auto estimator = make_with_field(0);
+  const Ropes alone = estimate(estimator, wave.frame());
+  ASSERT_EQ(alone.ropes.size(), 1U);
+  KnownRope before{alone.ropes[0].nodes, false};
+  std::reverse(before.nodes.begin(), before.nodes.end());
+  const auto told = estimator.estimate_ropes(wave.frame(), {before});
+  ASSERT_TRUE(told) << told.error().message;
+  ASSERT_EQ(told->ropes.size(), 1U);
+  EXPECT_TRUE(told->ropes[0].reversed);
+  EXPECT_LT(geometry::distance(told->ropes[0].nodes.front(), before.nodes.front()), 0.01);
 }
 
 TEST(EstimateRopes, LabelsThatAreNotThereAndTooManyAreErrors) {

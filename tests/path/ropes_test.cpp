@@ -4,6 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <optional>
+#include <utility>
+#include <vector>
 
 #include "flowdlo/config.hpp"
 #include "path/path.hpp"
@@ -30,6 +33,96 @@ double ends_off_px(const Path& path, const RopesScene& scene) {
                       std::max((b - first).norm(), (a - last).norm())});
   }
   return least;
+}
+
+// A path along a straight line.
+Path line(const Eigen::Vector2f& from, const Eigen::Vector2f& to) {
+  Path path;
+  for (int i = 0; i <= 100; ++i) {
+    path.points_px.emplace_back(from + (to - from) * static_cast<float>(i) / 100);
+  }
+  path.bridged.assign(path.points_px.size(), 0);
+  return path;
+}
+
+TEST(RopePaths, OneRopeIsTheSameInEitherDirectionAndNoneThatEndsElsewhere) {
+  const Path rope = line({10, 10}, {200, 40});
+  EXPECT_TRUE(same_rope(rope, line({12, 14}, {198, 37}), 8));
+  EXPECT_TRUE(same_rope(rope, line({200, 40}, {10, 10}), 8));
+  EXPECT_FALSE(same_rope(rope, line({10, 10}, {150, 32}), 8));
+  EXPECT_FALSE(same_rope(rope, line({10, 30}, {200, 60}), 8));
+  Path ring = line({10, 10}, {200, 40});
+  ring.closed = true;
+  EXPECT_FALSE(same_rope(rope, ring, 8));
+  Path turned = ring;
+  std::rotate(turned.points_px.begin(), turned.points_px.begin() + 30, turned.points_px.end());
+  EXPECT_TRUE(same_rope(ring, turned, 8));
+}
+
+// Whether both sets are the same ropes.
+bool same_ropes(const std::vector<Path>& a, const std::vector<Path>& b, float width_px) {
+  return a.size() == b.size() && std::all_of(a.begin(), a.end(), [&](const Path& rope) {
+           return std::any_of(b.begin(), b.end(),
+                              [&](const Path& other) { return same_rope(rope, other, width_px); });
+         });
+}
+
+// A frame that might as well show another set of ropes, and both sets.
+struct Ambiguous {
+  RopesScene scene;
+  RopePaths traced;
+  std::vector<Path> other;
+};
+
+std::optional<Ambiguous> ambiguous() {
+  for (std::uint64_t seed = 0; seed < 40; ++seed) {
+    auto scene = make_ropes(RopesKind::kCrossing, 4, seed);
+    auto traced = trace_ropes(scene.frame(), 0);
+    if (!traced || traced->guesses.size() < 2) continue;
+    auto other = traced->guesses[1].ropes;
+    if (same_ropes(traced->ropes, other, traced->rope_width_px)) continue;
+    return Ambiguous{std::move(scene), *std::move(traced), std::move(other)};
+  }
+  return std::nullopt;
+}
+
+TEST(RopePaths, TheFrameBeforeDecidesBetweenSetsThatThisOneHardlyTellsApart) {
+  const auto seen = ambiguous();
+  ASSERT_TRUE(seen) << "no scene might be two sets of ropes";
+  const float width_px = seen->traced.rope_width_px;
+  const auto told = trace_ropes(seen->scene.frame(), 0, seen->other);
+  ASSERT_TRUE(told) << told.error().message;
+  EXPECT_TRUE(same_ropes(told->ropes, seen->other, width_px));
+  EXPECT_LE(*std::min_element(told->lead.begin(), told->lead.end()), 0)
+      << "by this frame alone another set is cheaper";
+  EXPECT_EQ(told->guesses.front().share, seen->traced.guesses.front().share);
+}
+
+TEST(RopePaths, AFrameBeforeWhoseRopesLieElsewhereIsNoEvidence) {
+  const auto seen = ambiguous();
+  ASSERT_TRUE(seen) << "no scene might be two sets of ropes";
+  const float width_px = seen->traced.rope_width_px;
+  auto moved = seen->other;
+  for (Path& rope : moved) {
+    for (auto& p : rope.points_px) p.x() += 4 * width_px;
+  }
+  const auto told = trace_ropes(seen->scene.frame(), 0, moved);
+  ASSERT_TRUE(told) << told.error().message;
+  EXPECT_TRUE(same_ropes(told->ropes, seen->traced.ropes, width_px));
+  EXPECT_EQ(told->lead, seen->traced.lead);
+}
+
+TEST(RopePaths, NoFrameBeforeOutvotesAClearOne) {
+  const auto scene = make_ropes(RopesKind::kCrossing, 2, 0);
+  const auto alone = trace_ropes(scene.frame(), 0);
+  ASSERT_TRUE(alone) << alone.error().message;
+  ASSERT_EQ(alone->ropes.size(), 2U);
+  const auto& a = alone->ropes[0].points_px;
+  const auto& b = alone->ropes[1].points_px;
+  const auto told =
+      trace_ropes(scene.frame(), 0, {line(a.front(), b.back()), line(b.front(), a.back())});
+  ASSERT_TRUE(told) << told.error().message;
+  EXPECT_TRUE(same_ropes(told->ropes, alone->ropes, alone->rope_width_px));
 }
 
 TEST(RopePaths, AsManyAsThereAreWithTheirEndsWhereTheirsAre) {
