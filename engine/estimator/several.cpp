@@ -37,12 +37,21 @@ std::optional<path::Path> path_of(const KnownRope& known, const Intrinsics& came
   return path;
 }
 
-std::vector<path::Path> paths_of(const std::vector<KnownRope>& ropes, const Intrinsics& camera) {
+// The ropes of the frame before that can be drawn in this one.
+struct Drawn {
   std::vector<path::Path> paths;
+  std::vector<Centerline> nodes;  // [paths]
+};
+
+Drawn drawn(const std::vector<KnownRope>& ropes, const Intrinsics& camera) {
+  Drawn result;
   for (const KnownRope& rope : ropes) {
-    if (auto path = path_of(rope, camera)) paths.push_back(*std::move(path));
+    auto path = path_of(rope, camera);
+    if (!path) continue;
+    result.paths.push_back(*std::move(path));
+    result.nodes.push_back(rope.nodes);
   }
-  return paths;
+  return result;
 }
 
 double apart_px(const std::vector<Eigen::Vector2f>& a, const std::vector<Eigen::Vector2f>& b) {
@@ -51,21 +60,18 @@ double apart_px(const std::vector<Eigen::Vector2f>& a, const std::vector<Eigen::
   return sum / static_cast<double>(a.size());
 }
 
-// The nodes of the rope of the frame before that lies nearest to a path, whichever end comes first.
-std::optional<Centerline> nearest(const path::Path& path, const std::vector<KnownRope>& before,
-                                  const Intrinsics& camera) {
+// The nodes of the one that lies nearest to a path, whichever end comes first.
+std::optional<Centerline> nearest(const path::Path& path, const Drawn& before) {
   const auto points = geometry::resample(path.points_px, static_cast<int>(kNodes));
   const std::vector<Eigen::Vector2f> back(points.rbegin(), points.rend());
   std::optional<Centerline> found;
   double least_px = std::numeric_limits<double>::max();
-  for (const KnownRope& known : before) {
-    const auto other = path_of(known, camera);
-    if (!other) continue;
-    const double px =
-        std::min(apart_px(points, other->points_px), apart_px(back, other->points_px));
+  for (std::size_t k = 0; k < before.paths.size(); ++k) {
+    const auto& other = before.paths[k].points_px;
+    const double px = std::min(apart_px(points, other), apart_px(back, other));
     if (px >= least_px) continue;
     least_px = px;
-    found = known.nodes;
+    found = before.nodes[k];
   }
   return found;
 }
@@ -85,7 +91,8 @@ Result<void> several_ropes(const Frame& frame, int ropes, const EstimateOne& one
                            const SeeAxes& see, const std::vector<KnownRope>& before,
                            Ropes& result) {
   Stopwatch stage;
-  const auto parted = part_ropes(frame, ropes, see, paths_of(before, frame.intrinsics));
+  const Drawn seen = drawn(before, frame.intrinsics);
+  const auto parted = part_ropes(frame, ropes, see, seen.paths);
   if (!parted) return parted.error();
   stage.lap(result.parting_ms);
   const std::size_t count = parted->paths.ropes.size();
@@ -105,7 +112,7 @@ Result<void> several_ropes(const Frame& frame, int ropes, const EstimateOne& one
     const bool labelled = !frame.instances.empty() && !closed;
     const ToldApart told{parted->witness[i], parted->paths.lead[i]};
     Part part{.traced = labelled ? nullptr : &traced};
-    if (labelled) part.hints.previous = nearest(parted->paths.ropes[i], before, frame.intrinsics);
+    if (labelled) part.hints.previous = nearest(parted->paths.ropes[i], seen);
     // Where a rope is alone there was nothing to tell apart.
     const bool one_of_several = count > 1 || closed;
     if (one_of_several) {

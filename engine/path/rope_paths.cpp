@@ -106,41 +106,59 @@ class Drawing {
   std::map<std::pair<std::vector<int>, bool>, Path> drawn_;
 };
 
-// What a set costs more for what is not as in the frame before.
-float changed(const RopeSet& set, const std::vector<Path>& before, float width_px,
-              Drawing& drawing) {
-  std::vector<bool> stayed(before.size(), false);
-  float cost = 0;
-  for (const Traversal& way : set.ways) {
-    const Path& path = drawing.of(way);
-    std::size_t same = 0;
-    while (same < before.size() && (stayed[same] || !same_rope(path, before[same], width_px))) {
-      ++same;
-    }
-    if (same < before.size()) {
-      stayed[same] = true;
-    } else {
-      cost += kChanged;
-    }
-  }
-  return cost + kChanged * static_cast<float>(std::count(stayed.begin(), stayed.end(), false));
-}
+// The ropes of the frame before, as evidence; each way is held against them once.
+class Before {
+ public:
+  Before(const std::vector<Path>& ropes, float width_px, Drawing& drawing)
+      : ropes_(ropes), width_px_(width_px), drawing_(drawing) {}
 
-// Of sets that come cheapest first the one that is cheapest beside the frame before.
-const RopeSet& cheapest(const std::vector<RopeSet>& sets, const std::vector<Path>& before,
-                        float width_px, Drawing& drawing) {
-  if (before.empty()) return sets.front();
-  const RopeSet* best = nullptr;
-  float least = std::numeric_limits<float>::max();
-  for (const RopeSet& set : sets) {
-    if (set.cost >= least) break;
-    const float cost = set.cost + changed(set, before, width_px, drawing);
-    if (cost >= least) continue;
-    least = cost;
-    best = &set;
+  // Of sets that come cheapest first the one that is cheapest beside this.
+  const RopeSet& cheapest(const std::vector<RopeSet>& sets) {
+    if (ropes_.empty()) return sets.front();
+    const RopeSet* best = &sets.front();
+    float least = std::numeric_limits<float>::max();
+    for (const RopeSet& set : sets) {
+      if (set.cost >= least) break;
+      const float cost = set.cost + changed(set);
+      if (cost >= least) continue;
+      least = cost;
+      best = &set;
+    }
+    return *best;
   }
-  return best != nullptr ? *best : sets.front();
-}
+
+ private:
+  // What a set costs more for what is not as it was.
+  float changed(const RopeSet& set) {
+    std::vector<bool> stayed(ropes_.size(), false);
+    float cost = 0;
+    for (const Traversal& way : set.ways) {
+      const std::vector<bool>& same = same_as(drawing_.of(way));
+      std::size_t k = 0;
+      while (k < same.size() && (stayed[k] || !same[k])) ++k;
+      if (k < same.size()) {
+        stayed[k] = true;
+      } else {
+        cost += kChanged;
+      }
+    }
+    return cost + kChanged * static_cast<float>(std::count(stayed.begin(), stayed.end(), false));
+  }
+
+  // [ropes] whether a drawn path is that one.
+  const std::vector<bool>& same_as(const Path& path) {
+    const auto [place, added] = same_.try_emplace(&path);
+    if (added) {
+      for (const Path& rope : ropes_) place->second.push_back(same_rope(path, rope, width_px_));
+    }
+    return place->second;
+  }
+
+  const std::vector<Path>& ropes_;
+  float width_px_;
+  Drawing& drawing_;
+  std::map<const Path*, std::vector<bool>> same_;
+};
 
 // The likeliest of sets that come cheapest first: costs are negative logarithms.
 std::vector<RopesGuess> guesses_of(const std::vector<RopeSet>& sets, Drawing& drawing) {
@@ -184,17 +202,17 @@ bool same_rope(const Path& a, const Path& b, float width_px) {
 }
 
 Result<RopePaths> rope_paths(const Strands& strands, const Prices& prices, const Region& region,
-                             const Frame& frame, const KnownRopes& known) {
-  const auto sets = search_sets(strands, prices, known.number, kSets);
-  if (sets.empty()) return no_set(known.number, strands);
+                             const Frame& frame, const Beside& beside) {
+  const auto sets = search_sets(strands, prices, beside.number, kSets);
+  if (sets.empty()) return no_set(beside.number, strands);
   // A number that the strands speak against more than its giver is to be trusted.
   const auto of_any_number =
-      known.number > 0 ? search_sets(strands, prices, 0, kSets) : std::vector<RopeSet>();
+      beside.number > 0 ? search_sets(strands, prices, 0, kSets) : std::vector<RopeSet>();
   RopePaths result;
   result.rope_width_px = strands.width_px;
   result.filtered = region.filtered;
   Drawing drawing(strands, region, frame);
-  const RopeSet& set = cheapest(sets, known.before, strands.width_px, drawing);
+  const RopeSet& set = Before(beside.before, strands.width_px, drawing).cheapest(sets);
   for (const Traversal& way : set.ways) {
     Path path = drawing.of(way);
     if (path.points_px.size() < 2) continue;
@@ -203,7 +221,7 @@ Result<RopePaths> rope_paths(const Strands& strands, const Prices& prices, const
     result.lead.push_back(std::min(lead_of(way, sets, set.cost, strands),
                                    lead_of(way, of_any_number, set.cost, strands) + kNumberKnown));
   }
-  if (result.ropes.empty()) return no_set(known.number, strands);
+  if (result.ropes.empty()) return no_set(beside.number, strands);
   result.guesses = guesses_of(sets, drawing);
   if (result.ropes.size() <= kMostRopes) return result;
   return Error{ErrorCode::kNoPath,

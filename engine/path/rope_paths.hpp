@@ -13,7 +13,7 @@
 namespace flowdlo::path {
 
 /// What is known of a frame's ropes beside the frame.
-struct KnownRopes {
+struct Beside {
   int number = 0;              ///< of them; 0: unknown
   std::vector<Path> before{};  ///< those of the frame before, in this one's pixels
 };
@@ -22,6 +22,6 @@ struct KnownRopes {
 /// frame that `region` was cut out of.
 [[nodiscard]] Result<RopePaths> rope_paths(const Strands& strands, const Prices& prices,
                                            const Region& region, const Frame& frame,
-                                           const KnownRopes& known);
+                                           const Beside& beside);
 
 }  // namespace flowdlo::path

@@ -67,10 +67,10 @@ class FLOWDLO_EXPORT Estimator {
   [[nodiscard]] Result<Ropes> estimate_ropes(const Frame& frame);
 
   /// The same by heed of the ropes of the frame before, as Tracker::estimate_ropes has it: of sets
-  /// of ropes that the frame hardly tells apart the one is taken that has them; an only
-  /// rope, and one that a label tells apart, has the nearest for Hints::previous. Ropes that lie
-  /// elsewhere by more than a width and a half are no evidence, nor are those with a node that is
-  /// not finite. `confidence` stays what the frame alone says.
+  /// of ropes that the frame hardly tells apart the one is taken that has them. A rope
+  /// that a label tells apart has the nearest for Hints::previous, an only rope the only one. Those
+  /// that lie elsewhere by more than a width and a half are no evidence, nor is what has a node
+  /// that is not finite. `confidence` stays what the frame alone says.
   [[nodiscard]] Result<Ropes> estimate_ropes(const Frame& frame,
                                              const std::vector<KnownRope>& before);
 
