@@ -106,17 +106,15 @@ struct Made {
 
 Result<void> make(const SynthOptions& options, const Job& job, const SynthFolder* folder,
                   synth::SyntheticFrame* shown, std::atomic<int>& kept) {
-  auto known = synth::identity(options.split, options.part, options.seed, job.index, job.frame);
+  const synth::Render render{
+      .frame = job.frame, .matched = options.matched, .cords = options.cords};
+  const auto known = synth::identity(options.split, options.part, options.seed, job.index, render);
   if (!known) return known.error();
-  known->cords = options.cords;
-  known->matched = options.matched;
   const auto there = folder != nullptr ? folder->holds(*known) : Result<bool>(true);
   if (!there) return there.error();
   kept += folder != nullptr && *there ? 1 : 0;
   if (*there && shown == nullptr) return {};
-  auto frame =
-      synth::make_frame(options.split, options.part, options.seed, job.index,
-                        {.frame = job.frame, .matched = options.matched, .cords = options.cords});
+  auto frame = synth::make_frame(options.split, options.part, options.seed, job.index, render);
   if (!frame) return frame.error();
   if (!*there) {
     if (auto saved = folder->save(*frame); !saved) return saved;

@@ -153,21 +153,23 @@ Result<void> check(Split split, Part part, std::uint64_t index, int frame) {
   return Error{ErrorCode::kBadInput, faults};
 }
 
-Meta identity_of(const SceneKey& key, std::string_view scenario, int frame) {
+Meta identity_of(const SceneKey& key, std::string_view scenario, const Render& render) {
   Meta meta;
   meta.scenario = scenario;
   meta.split = name_of(key.split);
   meta.part = name_of(key.part);
   meta.seed = key.seed;
   meta.index = key.index;
-  meta.frame = frame;
+  meta.frame = render.frame;
+  meta.cords = render.cords;
+  meta.matched = render.matched;
   return meta;
 }
 
 SyntheticFrame drawn(const SceneKey& key, const Render& render) {
   const auto kind = static_cast<lab::Kind>(key.index % lab::kKinds);
   SyntheticFrame frame = drawn_frame(kind, drawn_seed(key.part, key.seed, key.index), render.dense);
-  const Meta identity = identity_of(key, frame.meta.scenario, 0);
+  const Meta identity = identity_of(key, frame.meta.scenario, render);
   frame.meta.split = identity.split;
   frame.meta.part = identity.part;
   frame.meta.seed = identity.seed;
@@ -288,9 +290,7 @@ Result<SyntheticFrame> Scene::taken(const Render& render) const {
   const View& view = stage_.view;
   SyntheticFrame result;
   FrameFolder& folder = result.folder;
-  result.meta = identity_of(key_, scenario_, render.frame);
-  result.meta.cords = render.cords;
-  result.meta.matched = render.matched;
+  result.meta = identity_of(key_, scenario_, render);
   describe(stage_, *material_, result.meta);
   folder.name = folder_name(result.meta);
   folder.width = view.sensor->width;
@@ -332,10 +332,11 @@ Result<std::string_view> scenario_of(Split split, Part part, std::uint64_t seed,
   return scenario_of(SceneKey{split, part, seed, index});
 }
 
-Result<Meta> identity(Split split, Part part, std::uint64_t seed, std::uint64_t index, int frame) {
-  if (const auto good = check(split, part, index, frame); !good) return good.error();
+Result<Meta> identity(Split split, Part part, std::uint64_t seed, std::uint64_t index,
+                      const Render& render) {
+  if (const auto good = check(split, part, index, render.frame); !good) return good.error();
   const SceneKey key{split, part, seed, index};
-  return identity_of(key, scenario_of(key), frame);
+  return identity_of(key, scenario_of(key), render);
 }
 
 Result<SyntheticFrame> make_frame(Split split, Part part, std::uint64_t seed, std::uint64_t index,

@@ -186,9 +186,10 @@ inline constexpr double kDepthScale_m = 1.0e-4;
 [[nodiscard]] Result<std::string_view> scenario_of(Split split, Part part, std::uint64_t seed,
                                                    std::uint64_t index);
 
-/// A Meta of which split, part, seed, index, frame and scenario are set. Fails likewise.
+/// A Meta of which split, part, seed, index, frame, cords, matched and scenario are set. Fails
+/// likewise.
 [[nodiscard]] Result<Meta> identity(Split split, Part part, std::uint64_t seed, std::uint64_t index,
-                                    int frame);
+                                    const Render& render);
 
 /// Scene `index` of a part, the same on every call and thread. `seed` 0 gives the split that the
 /// tables use. Fails with kBadInput beyond scene_count(), with kInternal when Embree fails.
