@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "geometry/polyline.hpp"
+#include "geometry/ring.hpp"
 #include "track/alignment.hpp"
 
 namespace flowdlo::lab {
@@ -24,7 +25,7 @@ void RopeIdentity::add(const std::vector<Estimate>& found, const std::vector<int
   for (std::size_t i = 0; i < found.size(); ++i) {
     ++ropes;
     wrong += std::none_of(truths.begin(), truths.end(), [&](const Centerline& truth) {
-      return track::align(found[i].nodes, found[i].closed, truth).apart_m <= kJump_m;
+      return geometry::mean_distance(found[i].nodes, truth, found[i].closed) <= kJump_m;
     });
     std::size_t nearest = 0;
     std::optional<track::Alignment> alignment;

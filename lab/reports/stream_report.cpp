@@ -271,9 +271,10 @@ void add_stream_report(CLI::App& program, support::ExitCode& exit_code) {
   app.add_flag("--mislead", options->mislead,
                "Also with a wrong frame before: the best alternative that runs elsewhere");
   app.add_flag("--list", options->list, "Every scene and every jump on stderr");
-  app.add_flag("--ropes", options->ropes,
-               "Scenes of several ropes: by length as they come, and by the tracker's numbers");
-  app.add_flag("--labels", options->labels, "With --ropes: each pixel is labelled with its rope");
+  auto* const ropes =
+      app.add_flag("--ropes", options->ropes,
+                   "Scenes of several ropes: by length as they come, and by the tracker's numbers");
+  app.add_flag("--labels", options->labels, "Each pixel is labelled with its rope")->needs(ropes);
   support::set_action(app, exit_code, [options] {
     return options->ropes ? report_ropes(*options) : report(*options);
   });

@@ -18,6 +18,7 @@ namespace {
 constexpr double kTurn = 2 * std::numbers::pi;
 constexpr int kPlacings = 40;       // of one rope
 constexpr double kTouching = 1.01;  // sums of two radii between ropes that touch
+constexpr double kClear = 1.06;     // and between ropes that do not
 constexpr double kBeside = 0.5 * (1 + kTouching);
 constexpr double kAlong = 0.25;        // share of ropes thrown that run along the first one
 constexpr double kSeparation = 0.975;  // sums of two radii between ropes, in space
@@ -185,6 +186,15 @@ bool lies_well(const FlatRope& a, const FlatRope& b, const Order& order, double 
   return true;
 }
 
+// The same of all others, from the first of which the rope may be nearer.
+bool lies_well(const std::vector<FlatRope>& others, const FlatRope& rope, const Order& order,
+               double apart_from_first, double apart, bool& cross) {
+  return std::all_of(others.begin(), others.end(), [&](const FlatRope& other) {
+    const bool first = &other == &others.front();
+    return lies_well(other, rope, order, first ? apart_from_first : apart, cross);
+  });
+}
+
 // Anywhere around the middle of one of the others, at most `share` of half the first one's length
 // away.
 void put_near(FlatPoints& points, const std::vector<FlatRope>& others, double share, Dice& dice) {
@@ -197,7 +207,7 @@ void put_near(FlatPoints& points, const std::vector<FlatRope>& others, double sh
 // A shape for the next rope, in its place among the others. Empty when none was found.
 std::optional<FlatRope> placed(const std::vector<FlatRope>& others, const Gauge& gauge, bool closed,
                                bool touching, bool joined, Dice& dice) {
-  const double clear = dice.chance(0.5) ? 1.06 : 1.35;  // just apart, or well apart
+  const double clear = dice.chance(0.5) ? kClear : 1.35;  // just apart, or well apart
   for (int k = 0; k < kPlacings; ++k) {
     FlatRope rope{{}, gauge, closed};
     if (closed) {
@@ -216,10 +226,7 @@ std::optional<FlatRope> placed(const std::vector<FlatRope>& others, const Gauge&
       put_near(rope.points, others, 0.6, dice);
     }
     bool cross = others.empty() || touching;
-    const bool fits = std::all_of(others.begin(), others.end(), [&](const FlatRope& other) {
-      const bool beside_it = touching && &other == &others.front();
-      return lies_well(other, rope, kTidy, beside_it ? kBeside : clear, cross);
-    });
+    const bool fits = lies_well(others, rope, kTidy, touching ? kBeside : clear, clear, cross);
     if (fits && (cross || !joined)) return rope;
   }
   return std::nullopt;
@@ -306,10 +313,7 @@ std::optional<FlatRope> thrown(std::string_view scenario, const std::vector<Flat
       put_near(rope.points, others, 0.4, dice);
     }
     bool cross = along;
-    const bool fits = std::all_of(others.begin(), others.end(), [&](const FlatRope& other) {
-      const bool beside_it = along && &other == &others.front();
-      return lies_well(other, rope, kTangled, beside_it ? kBeside : 1.06, cross);
-    });
+    const bool fits = lies_well(others, rope, kTangled, along ? kBeside : kClear, kClear, cross);
     if (fits && cross) return rope;
   }
   return std::nullopt;
