@@ -28,7 +28,8 @@ class NetworkImpl : public torch::nn::Module {
   explicit NetworkImpl(const NetworkConfig& config);
 
   /// [n, kPlanes, h, w] to [n, kChannels, h, w]; h and w multiples of 8. Centre, tip, under, rope
-  /// and edge are logits, directions have any length.
+  /// and edge are logits, directions have any length. In the precision of the planes; what it says
+  /// is f32.
   torch::Tensor forward(const torch::Tensor& planes, const Watch& watch = {});
 
   NetworkConfig config;

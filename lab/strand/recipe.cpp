@@ -73,6 +73,7 @@ void visit(Visitor& visitor, Recipe& recipe) {
     v.real("clip_norm", schedule.clip_norm, 0, 1e9);
     v.real("ema_decay", schedule.ema_decay, 0, 0.9999999);
     v.whole("checkpoint_every", schedule.checkpoint_every, 1, kMany);
+    v.choice("precision", schedule.precision, train::precisions());
   });
 }
 

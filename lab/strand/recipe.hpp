@@ -8,6 +8,7 @@
 #include "flowdlo/result.hpp"
 #include "strand/patch_store.hpp"
 #include "strand/sample.hpp"
+#include "train/precision.hpp"
 
 namespace flowdlo::strand {
 
@@ -38,6 +39,7 @@ struct Schedule {
   double clip_norm = 5;
   double ema_decay = 0.998;
   int checkpoint_every = 200;
+  train::Precision precision = train::Precision::kBf16;  ///< of the convolutions
 };
 
 struct Recipe {

@@ -17,6 +17,7 @@
 #include "strand/sample.hpp"
 #include "threads/pool.hpp"
 #include "train/archive_file.hpp"
+#include "train/device.hpp"
 
 namespace flowdlo::strand {
 namespace {
@@ -51,28 +52,45 @@ Tensor focal(const Tensor& logit, const Tensor& target, const Tensor& weight) {
   return ((p - target).abs().detach() * each * weight).mean();
 }
 
-/// One less the cosine of the angle between two doubled directions, summed where there is one.
-Tensor apart(const Tensor& output, const Tensor& target, const Tensor& weight) {
-  const auto unit = torch::nn::functional::normalize(
-      output, torch::nn::functional::NormalizeFuncOptions().dim(1).eps(1e-4));
-  return (weight * (1 - (unit * target).sum(1))).sum();
+/// [channels] each [n, h, w]. Taken apart at once: a channel taken by itself has a gradient of all.
+using Planes = std::vector<Tensor>;
+
+/// A doubled direction of any length: its channel and the next one.
+struct Direction {
+  Direction(const Planes& of, field::Channel first) : cos(of[first]), sin(of[first + 1]) {}
+  Tensor cos;
+  Tensor sin;
+};
+
+/// One less the cosine of the angle between two directions, summed where there is one. `target` is
+/// of unit length.
+Tensor apart(const Direction& output, const Direction& target, const Tensor& weight) {
+  constexpr double kLeastSquare = 1e-8;
+  const Tensor length =
+      torch::sqrt(output.cos * output.cos + output.sin * output.sin + kLeastSquare);
+  const Tensor along = (output.cos * target.cos + output.sin * target.sin) / length;
+  return (weight * (1 - along)).sum();
 }
 
 /// Of the strand that shows and of the one below it. Crossings are a hundredth of a rope, and where
 /// the two must be told apart: both weigh several times as much there. They share one norm, since a
 /// sum over crossings alone would drown the direction of the strand that shows.
-Tensor directions(const Tensor& output, const Tensor& target) {
+Tensor directions(const Planes& output, const Planes& target) {
   constexpr double kAtCrossings = 4;
-  const auto two = [](const Tensor& of, field::Channel first) {
-    return of.slice(1, first, first + 2);
-  };
-  const Tensor centre = target.select(1, field::kCentre);
-  const Tensor under = target.select(1, field::kUnder);
-  const Tensor upper = apart(two(output, field::kCos), two(target, field::kCos),
+  const Tensor& centre = target[field::kCentre];
+  const Tensor& under = target[field::kUnder];
+  const Tensor upper = apart({output, field::kCos}, {target, field::kCos},
                              centre.sqrt() * (1 + kAtCrossings * under));
-  const Tensor lower = apart(two(output, field::kUnderCos), two(target, field::kUnderCos),
-                             kAtCrossings * under.sqrt());
+  const Tensor lower =
+      apart({output, field::kUnderCos}, {target, field::kUnderCos}, kAtCrossings * under.sqrt());
   return (upper + lower) / (centre.sum() + 1);
+}
+
+/// The largest of 9 x 9 pixels, [n, 1, h, w]: of each row's first.
+Tensor largest_around(const Tensor& image) {
+  constexpr int kReach = 4;
+  const Tensor rows = torch::max_pool2d(image, {1, 2 * kReach + 1}, 1, {0, kReach});
+  return torch::max_pool2d(rows, {2 * kReach + 1, 1}, 1, {kReach, 0});
 }
 
 /// [n, h, w, c], as the samples have their images.
@@ -179,7 +197,8 @@ LossParts step_once(State& state, const Batch& batch, torch::Device device) {
   state.network->train();
   const Tensor planes = on_device(batch.planes, device);
   const Tensor target = on_device(batch.target, device);
-  LossParts parts = loss_of(state.network->forward(planes), target, planes);
+  const auto type = train::compute_type(schedule.precision, device);
+  LossParts parts = loss_of(state.network->forward(planes.to(type)), target, planes);
   state.optimizer->zero_grad();
   parts.total(state.recipe.loss).backward();
   if (schedule.clip_norm > 0) {
@@ -210,23 +229,22 @@ Tensor LossParts::total(const LossConfig& weights) const {
 }
 
 LossParts loss_of(const Tensor& output, const Tensor& target, const Tensor& planes) {
-  const auto out = [&](field::Channel channel) { return output.select(1, channel); };
-  const auto want = [&](field::Channel channel) { return target.select(1, channel); };
-  const Tensor near =
-      torch::max_pool2d(planes.slice(1, field::kMask, field::kMask + 1), 9, 1, 4).squeeze(1);
-  const Tensor centre = want(field::kCentre);
-  const Tensor under = want(field::kUnder);
-  const Tensor rope = want(field::kRope);
+  const Planes out = output.unbind(1);
+  const Planes want = target.unbind(1);
+  const Tensor near = largest_around(planes.slice(1, field::kMask, field::kMask + 1)).squeeze(1);
+  const Tensor& centre = want[field::kCentre];
+  const Tensor& under = want[field::kUnder];
+  const Tensor& rope = want[field::kRope];
   LossParts parts;
-  parts.centre = focal(out(field::kCentre), centre, 0.3 + 1.2 * near + 4 * centre);
-  parts.tip = focal(out(field::kTip), want(field::kTip), 0.5 + 0.5 * near + 10 * want(field::kTip));
-  parts.under = focal(out(field::kUnder), under, 0.3 + 0.7 * near + 6 * under);
-  parts.rope = focal(out(field::kRope), rope, 0.3 + 0.7 * near);
+  parts.centre = focal(out[field::kCentre], centre, 0.3 + 1.2 * near + 4 * centre);
+  parts.tip = focal(out[field::kTip], want[field::kTip], 0.5 + 0.5 * near + 10 * want[field::kTip]);
+  parts.under = focal(out[field::kUnder], under, 0.3 + 0.7 * near + 6 * under);
+  parts.rope = focal(out[field::kRope], rope, 0.3 + 0.7 * near);
   parts.edge =
-      focal(out(field::kEdge), want(field::kEdge), 0.3 + 0.7 * near + 3 * want(field::kEdge));
-  parts.direction = directions(output, target);
+      focal(out[field::kEdge], want[field::kEdge], 0.3 + 0.7 * near + 3 * want[field::kEdge]);
+  parts.direction = directions(out, want);
   const Tensor off =
-      torch::smooth_l1_loss(out(field::kWidth), want(field::kWidth), at::Reduction::None, 0.1);
+      torch::smooth_l1_loss(out[field::kWidth], want[field::kWidth], at::Reduction::None, 0.1);
   parts.width = (rope * off).sum() / (rope.sum() + 1);
   return parts;
 }

@@ -38,10 +38,6 @@ const Names<ObjectiveKind>& objectives() {
                                           {"robust", ObjectiveKind::kRobust}};
   return names;
 }
-const Names<Precision>& precisions() {
-  static const Names<Precision> names{{"f32", Precision::kF32}, {"bf16", Precision::kBf16}};
-  return names;
-}
 
 /// Visits every field of a recipe by name; reading and writing are two visitors of the same list.
 template <class Visitor>

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "flowdlo/result.hpp"
+#include "train/precision.hpp"
 #include "train/record.hpp"
 #include "train/scene_source.hpp"
 #include "weights/variant.hpp"
@@ -47,8 +48,6 @@ struct ObjectiveConfig {
 };
 
 inline constexpr double kBalanceFloor = 0.01;  ///< normalised units
-
-enum class Precision { kF32, kBf16 };
 
 struct OptimizerConfig {
   int batch = 64;

@@ -79,6 +79,44 @@ TEST_F(FieldTraining, LowersTheLoss) {
   EXPECT_LT(losses.back(), 0.7 * losses.front());
 }
 
+TEST(FieldLoss, HasAGradientWhereTheNetworkSaysNothing) {
+  auto output = torch::zeros({2, field::kChannels, 16, 16}, torch::requires_grad());
+  const auto target = torch::full({2, field::kChannels, 16, 16}, 0.7);
+  const auto planes = torch::ones({2, field::kPlanes, 16, 16});
+  loss_of(output, target, planes).total(LossConfig()).backward();
+  EXPECT_TRUE(torch::isfinite(output.grad()).all().item<bool>());
+  for (int c = 0; c < field::kChannels; ++c) {
+    EXPECT_GT(output.grad().select(1, c).abs().max().item<double>(), 0) << "channel " << c;
+  }
+}
+
+TEST(FieldLoss, IsThatOfTheAnglesBetweenDirections) {
+  auto output = torch::zeros({1, field::kChannels, 8, 8});
+  auto target = torch::zeros({1, field::kChannels, 8, 8});
+  const auto planes = torch::ones({1, field::kPlanes, 8, 8});
+  target.select(1, field::kCentre).fill_(1);
+  target.select(1, field::kCos).fill_(1);
+  output.select(1, field::kCos).fill_(0.3);  // 30 degrees, of any length
+  output.select(1, field::kSin).fill_(0.3 * std::tan(std::acos(-1.0) / 6));
+  const double pixels = 64;
+  const double expected = pixels * (1 - std::cos(std::acos(-1.0) / 6)) / (pixels + 1);
+  EXPECT_NEAR(loss_of(output, target, planes).direction.item<double>(), expected, 1e-4);
+}
+
+TEST(FieldNetwork, SaysTheSameInBf16ButForRounding) {
+  torch::manual_seed(1);
+  Network network(NetworkConfig{16, 16, 16});
+  network->eval();
+  const torch::NoGradGuard no_gradients;
+  const auto planes = torch::randn({2, field::kPlanes, 32, 32});
+  const auto whole = network->forward(planes);
+  const auto half = network->forward(planes.to(torch::kBFloat16));
+  EXPECT_EQ(half.scalar_type(), torch::kFloat32);
+  const double off = (half - whole).abs().max().item<double>();
+  EXPECT_LT(off, 0.03 * whole.abs().max().item<double>());
+  EXPECT_GT(off, 0) << "nothing was computed in bf16";
+}
+
 TEST_F(FieldTraining, ResumesExactly) {
   State whole = start(small_recipe(), torch::kCPU);
   ASSERT_TRUE(train(whole, options("whole", 30), torch::kCPU));
