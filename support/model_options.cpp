@@ -5,6 +5,7 @@
 #include <string>
 
 #include "choice.hpp"
+#include "whole_number.hpp"
 #include "wide_lavapipe.hpp"
 
 namespace flowdlo::support {
@@ -90,7 +91,7 @@ void add_model_options(CLI::App& command, Config& config) {
       ->type_name("QUALITY");
   command.add_option("--seed", config.seed, "Of the Gaussian sources")
       ->capture_default_str()
-      ->check(CLI::NonNegativeNumber);
+      ->check(whole_number());
   command.add_option("--threads", config.threads, "Of the CPU back end; 0: every core")
       ->capture_default_str()
       ->check(CLI::Range(0, 1024));

@@ -13,6 +13,7 @@
 #include "scene/ropes.hpp"
 #include "scene/scene.hpp"
 #include "terminal.hpp"
+#include "whole_number.hpp"
 
 namespace {
 
@@ -84,7 +85,9 @@ void add_make_scene(CLI::App& program, support::ExitCode& exit_code) {
          "--kind", options->kind,
          "Of one rope: " + kinds<Kind>(kKinds) + "; of several: " + kinds<RopesKind>(kRopesKinds))
       ->type_name("KIND");
-  app.add_option("--seed", options->seed, "Of the scene")->capture_default_str();
+  app.add_option("--seed", options->seed, "Of the scene")
+      ->capture_default_str()
+      ->check(support::whole_number());
   auto* ropes =
       app.add_option("--ropes", options->ropes, "How many; several have no truth in the folder")
           ->capture_default_str()

@@ -19,6 +19,7 @@
 #include "survey/in_parallel.hpp"
 #include "synth/synthetic_frame.hpp"
 #include "terminal.hpp"
+#include "whole_number.hpp"
 
 namespace flowdlo::lab {
 namespace {
@@ -212,10 +213,10 @@ void add_synth_command(CLI::App& app, support::ExitCode& exit_code) {
       ->check(CLI::Range(1, 100000000));
   command->add_option("--first", options->first, "Index of the first scene")
       ->capture_default_str()
-      ->check(CLI::NonNegativeNumber);
+      ->check(support::whole_number());
   command->add_option("--seed", options->seed, "0: the scenes of the tables")
       ->capture_default_str()
-      ->check(CLI::NonNegativeNumber);
+      ->check(support::whole_number());
   command
       ->add_option("--frames-per-scene", options->frames_per_scene,
                    "Of one static scene; they differ in noise and light")

@@ -198,13 +198,16 @@ TEST_P(WrongSynth, EndsWithTwoAndASentence) {
 using Arguments = std::vector<std::string>;
 INSTANTIATE_TEST_SUITE_P(
     SynthCommand, WrongSynth,
-    testing::Values(
-        Arguments{"synth"}, Arguments{"synth", "OUT", "--split", "narrow"},
-        Arguments{"synth", "OUT", "--part", "test"}, Arguments{"synth", "OUT", "--count", "0"},
-        Arguments{"synth", "OUT", "--seed", "-1"}, Arguments{"synth", "OUT", "--scenario", "knot"},
-        Arguments{"synth", "OUT", "--frames-per-scene", "0"},
-        Arguments{"synth", "OUT", "--split", "thesis", "--count", "235"},
-        Arguments{"synth", "OUT", "--split", "thesis", "--scenario", "straight", "--count", "11"}));
+    testing::Values(Arguments{"synth"}, Arguments{"synth", "OUT", "--split", "narrow"},
+                    Arguments{"synth", "OUT", "--part", "test"},
+                    Arguments{"synth", "OUT", "--count", "0"},
+                    Arguments{"synth", "OUT", "--seed", "-1"},
+                    Arguments{"synth", "OUT", "--first", "18446744073709551616"},
+                    Arguments{"synth", "OUT", "--scenario", "knot"},
+                    Arguments{"synth", "OUT", "--frames-per-scene", "0"},
+                    Arguments{"synth", "OUT", "--split", "thesis", "--count", "235"},
+                    Arguments{"synth", "OUT", "--split", "thesis", "--scenario", "straight",
+                              "--count", "11"}));
 
 TEST(SynthCommand, AFileInThePlaceOfOutIsAnError) {
   const TemporaryFolder scratch;
