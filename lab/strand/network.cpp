@@ -78,8 +78,7 @@ Tensor NetworkImpl::forward(const Tensor& planes, const Watch& watch) {
   const Tensor bottom = coarse->forward(torch::max_pool2d(middle, 2), watch);
   const Tensor half = up_middle->forward(middle + twice(convolve(*to_middle, bottom)), watch);
   const Tensor whole = up_fine->forward(fine + twice(convolve(*to_fine, half)), watch);
-  return torch::pixel_shuffle(convolve(*head, whole), 2)
-      .to(torch::kFloat32, false, false, torch::MemoryFormat::Contiguous);
+  return torch::pixel_shuffle(convolve(*head, whole), 2).to(torch::kFloat32).contiguous();
 }
 
 }  // namespace flowdlo::strand

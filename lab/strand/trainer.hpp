@@ -1,4 +1,4 @@
-// Trainer: the loss of a strand field and the loop that lowers it.
+// Trainer: the run that a strand field learns in, and the loop that lowers its loss.
 #pragma once
 
 #include <torch/torch.h>
@@ -10,29 +10,13 @@
 #include <string>
 #include <vector>
 
+#include "strand/loss.hpp"
 #include "strand/network.hpp"
 #include "strand/patch_store.hpp"
 #include "strand/recipe.hpp"
 #include "weights/field_weights.hpp"
 
 namespace flowdlo::strand {
-
-/// The parts of the loss, each without its weight.
-struct LossParts {
-  torch::Tensor centre;
-  torch::Tensor direction;
-  torch::Tensor tip;
-  torch::Tensor under;
-  torch::Tensor width;
-  torch::Tensor rope;
-  torch::Tensor edge;
-
-  [[nodiscard]] torch::Tensor total(const LossConfig& weights) const;
-};
-
-/// `output` and `target` [n, kChannels, h, w], `planes` [n, kPlanes, h, w].
-[[nodiscard]] LossParts loss_of(const torch::Tensor& output, const torch::Tensor& target,
-                                const torch::Tensor& planes);
 
 /// All that a run is, apart from its patches.
 struct State {

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "flowdlo/result.hpp"
-#include "train/recipe.hpp"
+#include "train/precision.hpp"
 
 namespace flowdlo::train {
 
