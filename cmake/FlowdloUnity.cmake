@@ -4,7 +4,8 @@
 # apart, so that nobody has to know what the others are called. What is not seen here, such as a helper
 # named as something in another file's header, is an error of the compiler: rename it.
 # Files of the global property FLOWDLO_WATCHED are kept apart from the others, in objects whose name
-# says so: tests/races compiles them itself and leaves those objects out.
+# says so: tests/races compiles them itself and leaves those objects out. Of a target whose property
+# FLOWDLO_FILES_ALONE is set, each file is compiled alone.
 
 # Of the files of a target, as many as a processor compiles in some 10 s.
 set(FLOWDLO_FILES_TOGETHER 10)
@@ -27,10 +28,10 @@ function(flowdlo_names_in names file)
 endfunction()
 
 function(flowdlo_group_files target)
-  get_target_property(alone ${target} UNITY_BUILD)
+  get_target_property(alone ${target} FLOWDLO_FILES_ALONE)
   get_target_property(type ${target} TYPE)
   get_target_property(sources ${target} SOURCES)
-  if("${alone}" STREQUAL "OFF" OR NOT sources OR NOT type MATCHES "EXECUTABLE|LIBRARY")
+  if(alone OR NOT sources OR NOT type MATCHES "EXECUTABLE|LIBRARY")
     return()
   endif()
   get_target_property(folder ${target} SOURCE_DIR)
@@ -72,6 +73,7 @@ function(flowdlo_group_files target)
                                 PROPERTIES UNITY_GROUP "${kind}_${group}")
   endforeach()
   set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
+  set_property(GLOBAL APPEND PROPERTY FLOWDLO_TOGETHER ${target})
 endfunction()
 
 function(flowdlo_compile_together)
@@ -88,4 +90,12 @@ function(flowdlo_compile_together)
       flowdlo_compile_together(${below})
     endif()
   endforeach()
+endfunction()
+
+# flowdlo_check_together(): an error where FLOWDLO_UNITY is set and no target's files are compiled together.
+function(flowdlo_check_together)
+  get_property(targets GLOBAL PROPERTY FLOWDLO_TOGETHER)
+  if(FLOWDLO_UNITY AND NOT targets)
+    message(FATAL_ERROR "FLOWDLO_UNITY: expected targets whose files are compiled together, got none")
+  endif()
 endfunction()

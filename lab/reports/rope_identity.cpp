@@ -6,13 +6,13 @@
 
 #include "geometry/polyline.hpp"
 #include "geometry/ring.hpp"
+#include "reports/steadiness.hpp"
 #include "track/alignment.hpp"
 
 namespace flowdlo::lab {
 namespace {
 
 constexpr double kBegin_m = 0.01;  // node 0 of a ring may move that far beside the ring
-constexpr double kJump_m = 0.01;
 
 track::Alignment align(const Estimate& now, const Estimate& before) {
   return track::align(now.nodes, now.closed && before.closed, before.nodes);
