@@ -6,8 +6,10 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <set>
 #include <utility>
 
+#include "path/overlaps.hpp"
 #include "path/pairings.hpp"
 #include "path/touches.hpp"
 
@@ -21,16 +23,17 @@ constexpr int kPriceSteps = 10;        // each twice as far, until a price is to
 constexpr int kPriceHalvings = 6;      // and then between two that are
 constexpr float kNoEnds = 1000;        // of a rope, a price at which none has two ends
 constexpr float kEndReach = 2;         // widths within which a place means an end
+constexpr float kStumpWidths = 3;      // a way that is no longer is never seen twice
 
 // The ends of all strands as things to be paired: by a bond, or, where a strand is left out, its
 // two with each other.
 class Ends {
  public:
   // `stops` [2 * strands]: what it costs a way to end at each. Without `closed` only strands that
-  // are rings themselves close.
+  // are rings themselves close. With `overlaps` a set has no rope twice.
   Ends(const Strands& strands, const std::vector<std::vector<Bond>>& bonds,
-       std::vector<float> stops, bool closed)
-      : strands_(strands), stops_(std::move(stops)), closed_(closed) {
+       std::vector<float> stops, bool closed, const Overlaps* overlaps = nullptr)
+      : strands_(strands), overlaps_(overlaps), stops_(std::move(stops)), closed_(closed) {
     for (int from = 0; from < static_cast<int>(bonds.size()); ++from) {
       for (const Bond& bond : bonds[from]) {
         const auto key = std::minmax(from, bond.to);
@@ -63,6 +66,7 @@ class Ends {
                                       [](const Traversal& way) { return !way.closed; });
       set.cost -= price * static_cast<float>(open);
       for (const Traversal& way : set.ways) set.cost += tight(way) ? kTightCost : 0;
+      if (overlaps_ != nullptr) drop_what_is_seen_twice(set);
       if (!set.ways.empty()) result.push_back(std::move(set));
     }
     return result;
@@ -100,20 +104,69 @@ class Ends {
   [[nodiscard]] Traversal alone(Traversal way) const {
     way.cost = all_left_out_;
     for (const int enter : way.enters) way.cost -= pairs_[first_left_out_ + enter / 2].cost;
-    if (strands_.list[way.enters.front() / 2].ring) return way;
-    for (std::size_t i = 1; i < way.enters.size(); ++i) {
-      way.cost += bond_cost(way.enters[i - 1] ^ 1, way.enters[i]);
-    }
-    if (way.closed) {
-      way.cost += bond_cost(way.enters.back() ^ 1, way.enters.front());
-      way.cost += tight(way) ? kTightCost : 0;
-      return way;
-    }
-    way.cost += stops_[way.enters.front()] + stops_[way.enters.back() ^ 1];
+    way.cost += own_cost(way);
     return way;
   }
 
  private:
+  // What a way pays for its bonds and for where it ends.
+  [[nodiscard]] float own_cost(const Traversal& way) const {
+    float cost = 0;
+    if (strands_.list[way.enters.front() / 2].ring) return cost;
+    for (std::size_t i = 1; i < way.enters.size(); ++i) {
+      cost += bond_cost(way.enters[i - 1] ^ 1, way.enters[i]);
+    }
+    if (way.closed) {
+      cost += bond_cost(way.enters.back() ^ 1, way.enters.front());
+      return cost + (tight(way) ? kTightCost : 0);
+    }
+    return cost + stops_[way.enters.front()] + stops_[way.enters.back() ^ 1];
+  }
+
+  [[nodiscard]] float covers_px(const Traversal& way) const {
+    float sum = 0;
+    for (const int enter : way.enters) sum += strands_.list[enter / 2].covers_px;
+    return sum;
+  }
+
+  // Takes ways out of a set, the shortest first, where the others lie on so much of them that
+  // leaving out the rest costs less than the way does. Closed ways stay: turns of a coil lie beside
+  // each other.
+  void drop_what_is_seen_twice(RopeSet& set) const {
+    std::vector<std::uint8_t> used(strands_.list.size(), 0);
+    const auto use = [&](const Traversal& way, bool is) {
+      for (const int enter : way.enters) used[enter / 2] = is ? 1 : 0;
+    };
+    std::vector<std::pair<float, std::size_t>> shortest;
+    for (std::size_t i = 0; i < set.ways.size(); ++i) {
+      shortest.emplace_back(covers_px(set.ways[i]), i);
+      use(set.ways[i], true);
+    }
+    std::sort(shortest.begin(), shortest.end());
+    std::vector<std::uint8_t> dropped(set.ways.size(), 0);
+    for (const auto& [length_px, i] : shortest) {
+      const Traversal& way = set.ways[i];
+      const float width_px = width_px_of(strands_.list[way.enters.front() / 2], strands_);
+      if (way.closed || length_px <= kStumpWidths * width_px) continue;
+      use(way, false);
+      float more = -own_cost(way);
+      for (const int enter : way.enters) {
+        more += pairs_[first_left_out_ + enter / 2].cost * overlaps_->bare_share(enter / 2, used);
+      }
+      dropped[i] = more < 0 ? 1 : 0;
+      if (more < 0) {
+        set.cost += more;
+      } else {
+        use(way, true);
+      }
+    }
+    std::vector<Traversal> kept;
+    for (std::size_t i = 0; i < set.ways.size(); ++i) {
+      if (dropped[i] == 0) kept.push_back(std::move(set.ways[i]));
+    }
+    set.ways = std::move(kept);
+  }
+
   // Whether a rope would have to bend more tightly than ropes do to close like that.
   [[nodiscard]] bool tight(const Traversal& way) const {
     if (!way.closed) return false;
@@ -167,6 +220,7 @@ class Ends {
   }
 
   const Strands& strands_;
+  const Overlaps* overlaps_;  // or null
   std::vector<float> stops_;
   bool closed_;
   std::map<std::pair<int, int>, float> bonds_;  // the cheapest of two ends
@@ -201,6 +255,22 @@ void sort_and_cut(std::vector<Priced>& list, std::size_t count) {
   std::stable_sort(list.begin(), list.end(),
                    [](const Priced& a, const Priced& b) { return a.cost < b.cost; });
   if (list.size() > count) list.resize(count);
+}
+
+// At most `count` sets, cheapest first: of those of the same ways, which differ in what was seen
+// twice, the cheapest.
+std::vector<RopeSet> each_once(std::vector<RopeSet> sets, std::size_t count) {
+  sort_and_cut(sets, sets.size());
+  std::set<std::vector<std::vector<int>>> known;
+  std::vector<RopeSet> result;
+  for (RopeSet& set : sets) {
+    std::vector<std::vector<int>> ways;
+    for (const Traversal& way : set.ways) ways.push_back(way.enters);
+    if (result.size() < count && known.insert(std::move(ways)).second) {
+      result.push_back(std::move(set));
+    }
+  }
+  return result;
 }
 
 // The ways of the sets, each as the only rope's, cheapest first; of those of one kind the cheapest.
@@ -243,7 +313,8 @@ std::vector<int> key_of(const Traversal& way, const Strands& strands) {
 
 std::vector<RopeSet> search_sets(const Strands& strands, const Prices& prices, int ropes,
                                  std::size_t count) {
-  const Ends ends(strands, prices.bonds, prices.stops, true);
+  const Overlaps overlaps(strands);
+  const Ends ends(strands, prices.bonds, prices.stops, true, &overlaps);
   const auto wanted = static_cast<std::size_t>(ropes);
   std::vector<RopeSet> found;
   for (RopeSet& set : ropes > 0 ? ends.sets_around(wanted) : ends.sets(0, kPairings)) {
@@ -252,8 +323,7 @@ std::vector<RopeSet> search_sets(const Strands& strands, const Prices& prices, i
                 kRingEnergy * static_cast<float>(closed_by_bonds(set, strands));
     found.push_back(std::move(set));
   }
-  sort_and_cut(found, count);
-  return found;
+  return each_once(std::move(found), count);
 }
 
 std::vector<Traversal> search(const Strands& strands, const Prices& prices, int count,

@@ -29,7 +29,9 @@ struct RopeSet {
 /// has one bond at most and every strand is either used or left out, so that a set is a pairing of
 /// ends (`cheapest_pairings`): exact for any number of ropes as long as that is. A number that is
 /// asked for comes from the price of one more rope at which it is the cheapest one; one that is so
-/// at no price is looked for on both sides of where it is passed. Deterministic.
+/// at no price is looked for on both sides of where it is passed. Of each of these sets the ways
+/// then go that others lie on (path/overlaps): what is left out pays nothing where a strand that is
+/// used explains it. Deterministic.
 [[nodiscard]] std::vector<RopeSet> search_sets(const Strands& strands, const Prices& prices,
                                                int ropes, std::size_t count);
 

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "geometry/polyline.hpp"
 
 namespace flowdlo::path {
@@ -189,6 +191,63 @@ TEST(RopeSets, AShortStrandIsLeftOutAndALongOneIsARope) {
   EXPECT_FLOAT_EQ(with_speck[0].cost, kRope + left_out_energy(strands.list[1], strands));
   strands.list[1].covers_px = 60;
   EXPECT_EQ(search_sets(strands, prices_of(Bonds(4)), 0, 1).at(0).ways.size(), 2U);
+}
+
+/// Two strands of forty widths side by side, so many pixels apart; a rope's ends cost kStop each.
+Strands side_by_side(float apart_px) {
+  Strands strands = strands_of(2);
+  const std::vector<Eigen::Vector2f> line{{0, 0}, {200, 40}, {400, 0}};
+  for (std::size_t s = 0; s < 2; ++s) {
+    auto& points = strands.list[s].points_px;
+    points = geometry::resample(line, 400);
+    for (Eigen::Vector2f& p : points) p.y() += static_cast<float>(s) * apart_px;
+    strands.list[s].ends[0].point_px = points.front();
+    strands.list[s].ends[1].point_px = points.back();
+  }
+  return strands;
+}
+
+TEST(RopeSets, WhatLiesWithinAnotherRopeIsNoRopeOfItsOwn) {
+  const Prices prices = prices_of(Bonds(4));
+  const auto within = search_sets(side_by_side(6), prices, 0, 4);  // of ropes that are 10 px wide
+  ASSERT_FALSE(within.empty());
+  EXPECT_EQ(within[0].ways.size(), 1U);
+  EXPECT_FLOAT_EQ(within[0].cost, kRope) << "nothing is left out";
+  const auto beside = search_sets(side_by_side(10), prices, 0, 4);
+  ASSERT_FALSE(beside.empty());
+  EXPECT_EQ(beside[0].ways.size(), 2U) << "ropes that touch are two";
+}
+
+TEST(RopeSets, ARopeThatLiesOnAnotherForAPartOfItsWayIsOne) {
+  Strands strands = side_by_side(6);
+  auto& points = strands.list[1].points_px;
+  for (std::size_t i = 0; i < 80; ++i) points[i].y() += 40 - 0.5F * static_cast<float>(i);
+  const auto sets = search_sets(strands, prices_of(Bonds(4)), 0, 4);
+  ASSERT_FALSE(sets.empty());
+  EXPECT_EQ(sets[0].ways.size(), 2U) << "leaving out what lies bare costs more than a rope";
+}
+
+TEST(RopeSets, RopesThatCrossDoNotLieOnEachOther) {
+  Strands strands = side_by_side(0);
+  for (Eigen::Vector2f& p : strands.list[1].points_px) p = {200 - p.y(), p.x() - 200};
+  const auto sets = search_sets(strands, prices_of(Bonds(4)), 0, 4);
+  ASSERT_FALSE(sets.empty());
+  EXPECT_EQ(sets[0].ways.size(), 2U);
+}
+
+TEST(RopeSets, SetsThatDifferInWhatWasSeenTwiceAreOne) {
+  Strands strands = side_by_side(6);
+  strands.list.push_back(strands.list[1]);  // a third line within the same rope,
+  strands.list[2].covers_px = 30;           // that may also be left out
+  const auto sets = search_sets(strands, prices_of(Bonds(6)), 0, 8);
+  ASSERT_FALSE(sets.empty());
+  for (std::size_t i = 0; i < sets.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      const auto same = [](const Traversal& a, const Traversal& b) { return a.enters == b.enters; };
+      EXPECT_FALSE(std::equal(sets[i].ways.begin(), sets[i].ways.end(), sets[j].ways.begin(),
+                              sets[j].ways.end(), same));
+    }
+  }
 }
 
 TEST(RopeSets, NoStrandsAreNoSet) {
