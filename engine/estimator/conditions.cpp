@@ -1,7 +1,9 @@
 #include "estimator/conditions.hpp"
 
+#include <cstdint>
 #include <utility>
 
+#include "estimator/believed_mask.hpp"
 #include "estimator/stopwatch.hpp"
 #include "gate/one_rope.hpp"
 #include "path/strand_reading.hpp"
@@ -27,20 +29,51 @@ Result<void> lift(path::Traversals paths, const Frame& frame, const ReadConfig& 
   return {};
 }
 
+void show(const Frame& frame, Conditions& conditions) {
+  conditions.cloud = evidence::unproject(frame);  // Sec. 3.2
+  conditions.visible = evidence::visible_points(conditions.cloud);
+}
+
+/// What `see` shows of the frame, once it shows a mask that it agrees with or was asked often
+/// enough: fills `cleaned` and `believed`. Fails as path::glance does.
+Result<std::optional<field::Axes>> look(const Frame& given, const SeeAxes& see,
+                                        Conditions& conditions) {
+  std::optional<field::Axes> axes;
+  std::vector<std::uint8_t> mask;
+  Frame frame = given;
+  for (int believed = 0; believed <= kMostBelieved; ++believed) {
+    const auto glance = path::glance(frame);
+    if (!glance && !axes) return glance.error();
+    if (!axes) conditions.cleaned = glance->cleaned;
+    // Of noise a field shows noise, and the longer the more there is of it; of a disc nothing.
+    const bool worth =
+        glance && !glance->filtered && glance->slender >= gate::OneRopeLimits{}.slender;
+    auto seen = worth ? see(frame, glance->rope_width_px) : std::nullopt;
+    if (!seen) break;
+    axes = std::move(seen);
+    conditions.cleaned = glance->cleaned;
+    conditions.believed = std::move(mask);
+    mask = believed_mask(frame, glance->rope_width_px, *axes);
+    if (mask.empty()) break;
+    frame.mask = mask;
+  }
+  return axes;
+}
+
 /// Reads the frame along the axes that `see` shows. Whether there are any, and hypotheses of them;
 /// fails as path::glance does.
-Result<bool> read_seen(const Frame& frame, const ReadConfig& config, const SeeAxes& see,
+Result<bool> read_seen(const Frame& given, const ReadConfig& config, const SeeAxes& see,
                        Timings& timings, Conditions& conditions) {
   Stopwatch stage;
-  const auto glance = path::glance(frame);
-  if (!glance) return glance.error();
-  conditions.cleaned = glance->cleaned;
-  // Of noise a field shows noise, and the longer the more there is of it; of a disc nothing.
-  const bool worth = !glance->filtered && glance->slender >= gate::OneRopeLimits{}.slender;
-  auto axes = worth ? see(glance->rope_width_px) : std::nullopt;
+  auto axes = look(given, see, conditions);
   stage.lap(timings.field_ms);
-  if (!axes) return false;
-  auto paths = path::trace_strands(frame, *axes, config.trace(conditions.cleaned));
+  if (!axes) return axes.error();
+  if (!*axes) return false;
+  const Frame frame = read_frame(given, conditions);
+  if (!conditions.believed.empty()) show(frame, conditions);
+  stage.lap(timings.evidence_ms);
+  if (conditions.cloud.points_cam.empty()) return false;
+  auto paths = path::trace_strands(frame, **axes, config.trace(conditions.cleaned));
   stage.lap(timings.path_ms);
   const auto lifted =
       paths ? lift(*std::move(paths), frame, config, conditions) : Result<void>(paths.error());
@@ -49,8 +82,8 @@ Result<bool> read_seen(const Frame& frame, const ReadConfig& config, const SeeAx
     throw_what_ends_a_frame(lifted.error());
     return false;
   }
-  conditions.seen = std::exchange(axes->view, {});
-  conditions.axes = std::move(axes);
+  conditions.seen = std::exchange((*axes)->view, {});
+  conditions.axes = *std::move(axes);
   return true;
 }
 
@@ -60,14 +93,18 @@ Result<Conditions> gather(const Frame& frame, const ReadConfig& config, Timings&
                           const Traced* traced, const SeeAxes& see) {
   Stopwatch stage;
   Conditions conditions;
-  conditions.cloud = evidence::unproject(frame);  // Sec. 3.2
+  show(frame, conditions);
   if (conditions.cloud.points_cam.empty()) return no_evidence();
-  conditions.visible = evidence::visible_points(conditions.cloud);
   stage.lap(timings.evidence_ms);
   if (traced == nullptr && see) {
     const auto seen = read_seen(frame, config, see, timings, conditions);
     if (!seen) return seen.error();
     if (*seen) return conditions;
+    if (!conditions.believed.empty()) {  // nothing was made of it: the frame is read as it came
+      conditions.believed.clear();
+      conditions.cleaned = nullptr;
+      show(frame, conditions);
+    }
   }
   Stopwatch rest;
   auto paths = traced != nullptr
@@ -81,6 +118,12 @@ Result<Conditions> gather(const Frame& frame, const ReadConfig& config, Timings&
   conditions.of_mask = traced == nullptr;
   if (traced != nullptr) conditions.seen = traced->seen;
   return conditions;
+}
+
+Frame read_frame(const Frame& given, const Conditions& conditions) {
+  Frame frame = given;
+  if (!conditions.believed.empty()) frame.mask = conditions.believed;
+  return frame;
 }
 
 }  // namespace flowdlo::estimator

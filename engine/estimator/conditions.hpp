@@ -2,6 +2,7 @@
 // trainer both take it from here, so that a model sees in use what it saw in training.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -49,15 +50,20 @@ struct Conditions {
                                       ///< they are the mask's, or were known already
   std::optional<field::FieldView> seen{};  ///< what a strand field shows; nothing without one
   bool of_mask = false;                    ///< the paths are those of the mask alone
+  std::vector<std::uint8_t> believed{};    ///< the mask that was read; empty: the frame's
 };
 
 /// The first reading runs along `traced` where these paths are known already (else null), otherwise
 /// along the axes that `see` shows, otherwise along the mask alone: where `see` is null or shows
 /// nothing, of noise, of what is too short for its width, and where no hypothesis can be made of
-/// the axes. Fills evidence_ms, field_ms, path_ms and prior_ms of `timings`. Expects a valid frame.
-/// Fails with kNoEvidence, or as path::glance, path::trace and lift_all do of the mask.
+/// the axes. What comes after has to go by the mask that was read (`read_frame`). Fills
+/// evidence_ms, field_ms, path_ms and prior_ms of `timings`. Expects a valid frame. Fails with
+/// kNoEvidence, or as path::glance, path::trace and lift_all do of the mask.
 [[nodiscard]] Result<Conditions> gather(const Frame& frame, const ReadConfig& config,
                                         Timings& timings, const Traced* traced = nullptr,
                                         const SeeAxes& see = {});
+
+/// `given` with the mask that `conditions`, which have to outlive it, were read by.
+[[nodiscard]] Frame read_frame(const Frame& given, const Conditions& conditions);
 
 }  // namespace flowdlo::estimator

@@ -151,7 +151,7 @@ std::optional<field::Axes> Estimator::Impl::axes(const Frame& frame, float rope_
     reading_costs.of_field.left_out();
     return std::nullopt;
   }
-  return estimator::seen_by(networks.field(), frame, near_parts, &pool)(rope_width_px);
+  return estimator::seen_by(networks.field(), near_parts, &pool)(frame, rope_width_px);
 }
 
 /// [draws] the hypothesis that conditions each.
@@ -211,13 +211,12 @@ Result<Estimate> Estimator::Impl::estimate(const Frame& given, const Hints& hint
       estimator::prior_kind(config, metadata), hints.rope_length_m.value_or(config.rope_length_m),
       estimator::end_directions(hints, frame.intrinsics), hints.closed, &pool};
   networks.begin_frame();
-  bool no_time_for_field = false;
-  estimator::SeeAxes see;
-  if (networks.field() != nullptr) {
-    see = [&](float px) { return axes(frame, px, budget, false, no_time_for_field); };
-  }
-  auto conditions = estimator::gather(frame, reading, timings, part.traced, see);  // Sec. 3.2, 3.3
+  bool hurry = false;  // a look of the strand field was left out
+  const auto see = [&](const Frame& of, float px) { return axes(of, px, budget, false, hurry); };
+  auto conditions = estimator::gather(frame, reading, timings, part.traced,  // Sec. 3.2, 3.3
+                                      networks.field() != nullptr ? see : estimator::SeeAxes());
   if (!conditions) return conditions.error();
+  frame = estimator::read_frame(frame, *conditions);
 
   stage = {};
   const gate::DilatedMask mask(frame);
@@ -250,8 +249,8 @@ Result<Estimate> Estimator::Impl::estimate(const Frame& given, const Hints& hint
 
   std::vector<LeftOut> left_out;
   if (wanted && !asked) left_out.push_back(LeftOut::kModel);
-  if (no_time_for_field) left_out.push_back(LeftOut::kField);
-  if (look.left_out) left_out.push_back(LeftOut::kReadings);
+  if (hurry && !conditions->axes) left_out.push_back(LeftOut::kField);
+  if (look.left_out || (hurry && conditions->axes)) left_out.push_back(LeftOut::kReadings);
   auto judged = *first && !asked ? Result<estimator::Judged>(**std::move(first))
                                  : judge.of_all(std::move(look), sampled);
   if (!judged) return judged.error();
@@ -325,12 +324,12 @@ Result<Ropes> Estimator::estimate_ropes(const Frame& frame, const std::vector<Kn
         [&](const Frame& view, const estimator::Part& part, double share) {
           return impl_->estimate(view, part.hints, nullptr, budget.part(share), part);
         },
-        [&](float rope_width_px) {
+        [&](const Frame& seen, float rope_width_px) {
           // What tells ropes apart is never left out: by the mask alone there are other ropes, and
           // each of them takes longer.
           bool left_out = false;
-          auto axes = impl_->axes(frame, rope_width_px, looked ? budget : estimator::Budget(0),
-                                  true, left_out);
+          auto axes = impl_->axes(seen, rope_width_px, looked ? budget : estimator::Budget(0), true,
+                                  left_out);
           closer_left_out = closer_left_out || left_out;
           looked = true;
           return axes;

@@ -54,7 +54,7 @@ Result<RopeReadings> read_ropes(const Frame& frame, int ropes, const SeeAxes& se
   const std::size_t count = masked->ropes.size();
   // Of noise a field shows noise, and the longer the more there is of it.
   const bool worth = see && !masked->filtered;
-  const auto axes = worth ? see(masked->rope_width_px) : std::nullopt;
+  const auto axes = worth ? see(frame, masked->rope_width_px) : std::nullopt;
   if (!axes) return RopeReadings{*std::move(masked), std::vector(count, Witness::kNone)};
   auto seen = path::trace_ropes(frame, *axes, ropes, masked->guesses, before);
   if (!seen) return RopeReadings{*std::move(masked), std::vector(count, Witness::kDiffers)};
@@ -63,7 +63,7 @@ Result<RopeReadings> read_ropes(const Frame& frame, int ropes, const SeeAxes& se
   if (all_sure(first)) return first;
   const float closer_px = kCloser * first.paths.rope_width_px;
   if (!field::looks_closer(frame, closer_px, axes->magnified_for_px)) return first;
-  const auto closer = see(closer_px);
+  const auto closer = see(frame, closer_px);
   if (!closer) return first;
   const auto other = path::trace_ropes(frame, *closer, ropes, masked->guesses);
   if (!other) return first;

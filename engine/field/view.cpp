@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 
+#include "field/block_map.hpp"
 #include "field/channel.hpp"
 #include "field/region.hpp"
 #include "field/surface.hpp"
@@ -12,6 +14,8 @@ namespace flowdlo::field {
 namespace {
 
 using Eigen::Vector2f;
+
+constexpr float kTaken = 0.5F;  // of the channel `rope`, from which on a pixel is taken for rope
 
 // Pixels of the region, in which a rope is 8 px wide.
 constexpr std::array kBeside_px{-2.0F, -1.0F, 0.0F, 1.0F, 2.0F};  // a drawn curve lies off the axis
@@ -68,8 +72,32 @@ float FieldView::at(const Vector2f& p, Channel channel) const {
 
 float FieldView::width_px(const Vector2f& p) const {
   const Surface::Spot spot = Surface(channels_).spot(to_region(p));
-  if (spot.at(kRope) < 0.5F) return 0;
+  if (spot.at(kRope) < kTaken) return 0;
   return kRope_px * std::exp2(spot.at(kWidth)) / (0.5F * (scale_.x() + scale_.y()));
+}
+
+std::vector<std::uint8_t> FieldView::rope_mask(int width, int height) const {
+  std::vector<std::uint8_t> mask(static_cast<std::size_t>(width) * height, 0);
+  if (channels_.empty()) return mask;
+  const Surface surface(channels_);
+  // Of a block that begins at pixel `first` of the region: where the frame's pixels in it begin.
+  const auto begin = [this](int first, int axis, int most) {
+    const float at = (static_cast<float>(first) - 0.5F - origin_[axis]) / scale_[axis];
+    return static_cast<int>(std::clamp(std::ceil(at), 0.0F, static_cast<float>(most)));
+  };
+  for (const image::Point& block : channels_.map()->blocks) {
+    const image::Rect part = pixels_of(block);
+    const int last_v = begin(part.y + part.height, 1, height);
+    const int last_u = begin(part.x + part.width, 0, width);
+    for (int v = begin(part.y, 1, height); v < last_v; ++v) {
+      for (int u = begin(part.x, 0, width); u < last_u; ++u) {
+        const Vector2f p(static_cast<float>(u), static_cast<float>(v));
+        if (surface.at(to_region(p), kRope) <= kTaken) continue;
+        mask[static_cast<std::size_t>(v) * width + u] = 255;
+      }
+    }
+  }
+  return mask;
 }
 
 float FieldView::tip_ahead(const Vector2f& p, const Vector2f& outward) const {

@@ -3,6 +3,8 @@
 
 #include <Eigen/Core>
 #include <algorithm>
+#include <cstdint>
+#include <vector>
 
 #include "field/channel.hpp"
 #include "field/strand_field.hpp"
@@ -35,6 +37,9 @@ class FieldView {
 
   /// Width of the strand that shows at `p`, pixels of the frame; 0 where none does.
   [[nodiscard]] float width_px(const Eigen::Vector2f& p) const;
+
+  /// [height, width] of the frame: 255 where the field takes a pixel for rope, 0 elsewhere.
+  [[nodiscard]] std::vector<std::uint8_t> rope_mask(int width, int height) const;
 
   /// [0, 1] how clearly the rope's own end shows within a width ahead of `p`, towards `outward`.
   [[nodiscard]] float tip_ahead(const Eigen::Vector2f& p, const Eigen::Vector2f& outward) const;

@@ -91,8 +91,8 @@ enum class Doubt {
   return "unknown";
 }
 
-/// Whether the mask is one rope, the whole of it, and all of it explained by the nodes. Widths are
-/// the rope's, as the mask has it.
+/// Whether the mask, as it was put right, is one rope, the whole of it, and all of it explained by
+/// the nodes. Widths are the rope's, as that mask has it.
 struct OneRope {
   float explained = 0;        ///< [0, 1] share of the mask's area near the nodes
   float slender = 0;          ///< length of the nodes in the image, widths

@@ -51,14 +51,14 @@ std::optional<GateSample> measure(const synth::SyntheticFrame& scene, flow::Samp
                                   field::Network* field, refine::Network* refine,
                                   const gate::Fitted* fitted, int draws, weights::PriorKind kind,
                                   const Hints& known) {
-  const Frame frame = scene.frame();
+  Frame frame = scene.frame();
   Timings timings;
   const double rope_length_m = known.rope_length_m.value_or(0);
   const estimator::ReadConfig reading{
       .prior_kind = kind, .rope_length_m = rope_length_m, .closed = known.closed};
-  auto conditions =
-      estimator::gather(frame, reading, timings, nullptr, estimator::seen_by(field, frame));
+  auto conditions = estimator::gather(frame, reading, timings, nullptr, estimator::seen_by(field));
   if (!conditions) return std::nullopt;
+  frame = estimator::read_frame(frame, *conditions);
   const Hints none;
   const estimator::Judge judge(fitted, none, *conditions, frame, rope_length_m, refine);
   const auto first = judge.of_first(false);

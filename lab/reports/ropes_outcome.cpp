@@ -77,8 +77,8 @@ Result<Estimate> along_path(const estimator::RopeView& view, const RopesRun& run
 
 // Part by part, as the estimator does it.
 Result<Ropes> by_parts(const Frame& frame, const RopesRun& run, RopesOutcome& outcome) {
-  const estimator::SeeAxes see = [&](float rope_width_px) {
-    return seen_axes(frame, run, rope_width_px, outcome);
+  const estimator::SeeAxes see = [&](const Frame& of, float rope_width_px) {
+    return seen_axes(of, run, rope_width_px, outcome);
   };
   const auto parted = estimator::part_ropes(frame, run.ropes, run.field != nullptr ? see : nullptr);
   if (!parted) return parted.error();

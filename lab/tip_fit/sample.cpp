@@ -90,11 +90,12 @@ std::optional<double> beyond_m(const Centerline& nodes, const Centerline& truth,
 }
 
 std::vector<TipSample> samples_of(const synth::SyntheticFrame& scene, field::Network& network) {
-  const Frame frame = scene.frame();
+  Frame frame = scene.frame();
   Timings timings;
   const auto conditions =
-      estimator::gather(frame, {}, timings, nullptr, estimator::seen_by(&network, frame));
+      estimator::gather(frame, {}, timings, nullptr, estimator::seen_by(&network));
   if (!conditions || !conditions->seen) return {};
+  frame = estimator::read_frame(frame, *conditions);
   const auto look = estimator::first_look(*conditions, frame);
   std::vector<TipSample> samples;
   for (const auto& hypothesis :
@@ -108,7 +109,7 @@ std::vector<TipSample> samples_of_ropes(const synth::SyntheticFrame& scene,
                                         field::Network& network) {
   Frame frame = scene.frame();
   frame.instances = {};
-  const auto parted = estimator::part_ropes(frame, 0, estimator::seen_by(&network, frame, true));
+  const auto parted = estimator::part_ropes(frame, 0, estimator::seen_by(&network, true));
   if (!parted || !parted->seen) return {};
   std::vector<TipSample> samples;
   for (std::size_t i = 0; i < parted->paths.ropes.size(); ++i) {

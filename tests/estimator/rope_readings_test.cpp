@@ -20,7 +20,7 @@ using lab::RopesKind;
 
 TEST(RopeReadings, WithoutAFieldTheMasksRopesHaveNoWitness) {
   const auto scene = make_ropes(RopesKind::kCrossing, 2, 0);
-  const auto blind = [](float) { return std::optional<field::Axes>(); };
+  const auto blind = [](const Frame&, float) { return std::optional<field::Axes>(); };
   for (const estimator::SeeAxes& see : {estimator::SeeAxes(), estimator::SeeAxes(blind)}) {
     const auto read = estimator::read_ropes(scene.frame(), 0, see);
     ASSERT_TRUE(read) << read.error().message;
@@ -46,7 +46,7 @@ TEST(RopeReadings, TheAxesRopesAreTakenAndTheMasksSayWhichTheyKnow) {
   auto& half = axes.lines.back().points_px;
   half.resize(half.size() / 2);
   std::vector<float> asked_px;
-  const auto read = estimator::read_ropes(scene.frame(), 0, [&](float width_px) {
+  const auto read = estimator::read_ropes(scene.frame(), 0, [&](const Frame&, float width_px) {
     asked_px.push_back(width_px);
     return std::optional(axes);
   });
@@ -63,7 +63,7 @@ TEST(RopeReadings, RopesThatAreToldApartSurelyAreLookedAtOnce) {
   const auto masked = path::trace_ropes(scene.frame(), 0);
   ASSERT_TRUE(masked) << masked.error().message;
   int asked = 0;
-  const auto read = estimator::read_ropes(scene.frame(), 0, [&](float) {
+  const auto read = estimator::read_ropes(scene.frame(), 0, [&](const Frame&, float) {
     ++asked;
     return std::optional(axes_of(*masked));
   });
@@ -81,7 +81,7 @@ TEST(RopeReadings, WithoutACloserLookTheFirstOneStands) {
   auto& half = axes.lines.back().points_px;
   half.resize(half.size() / 2);
   int asked = 0;
-  const auto once = [&](float) {
+  const auto once = [&](const Frame&, float) {
     return asked++ == 0 ? std::optional(axes) : std::optional<field::Axes>();
   };
   const auto read = estimator::read_ropes(scene.frame(), 0, once);
@@ -103,7 +103,7 @@ TEST(RopeReadings, WhereTheFieldCannotLookCloserItIsAskedOnce) {
   axes.lines.pop_back();  // the other rope is in doubt
   axes.magnified_for_px = estimator::kCloser * axes.width_px;
   int asked = 0;
-  const auto read = estimator::read_ropes(scene.frame(), 0, [&](float) {
+  const auto read = estimator::read_ropes(scene.frame(), 0, [&](const Frame&, float) {
     ++asked;
     return std::optional(axes);
   });
@@ -113,7 +113,7 @@ TEST(RopeReadings, WhereTheFieldCannotLookCloserItIsAskedOnce) {
 
 TEST(RopeReadings, WhereTheAxesMakeNoRopesTheMasksAreInDoubt) {
   const auto scene = make_ropes(RopesKind::kCrossing, 2, 0);
-  const auto read = estimator::read_ropes(scene.frame(), 0, [](float) {
+  const auto read = estimator::read_ropes(scene.frame(), 0, [](const Frame&, float) {
     return std::optional(field::Axes{{}, 8});
   });
   ASSERT_TRUE(read) << read.error().message;
@@ -132,7 +132,7 @@ TEST(RopeReadings, OfNoiseTheFieldIsNotAsked) {
   }
   frame.mask = mask;
   int asked = 0;
-  const auto read = estimator::read_ropes(frame, 0, [&](float) {
+  const auto read = estimator::read_ropes(frame, 0, [&](const Frame&, float) {
     ++asked;
     return std::optional<field::Axes>();
   });

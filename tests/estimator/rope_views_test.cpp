@@ -48,7 +48,7 @@ TEST(RopeViews, TakeAlongWhatTheFieldShows) {
   ASSERT_TRUE(network);
   const auto scene = make_ropes(RopesKind::kCrossing, 2, 0);
   const Frame frame = scene.frame();
-  const auto parted = estimator::part_ropes(frame, 0, estimator::seen_by(&*network, frame));
+  const auto parted = estimator::part_ropes(frame, 0, estimator::seen_by(&*network));
   ASSERT_TRUE(parted) << parted.error().message;
   ASSERT_EQ(parted->paths.ropes.size(), 2U);
   for (std::size_t rope = 0; rope < 2; ++rope) {

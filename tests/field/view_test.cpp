@@ -2,6 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
 #include "support/painted_field.hpp"
 
 namespace flowdlo::field {
@@ -28,6 +32,26 @@ StrandField seen() {
     }
   }
   return field;
+}
+
+TEST(FieldView, TakesThePixelsForRopeThatItShowsAsRope) {
+  const FieldView view(seen());
+  constexpr int kWidth = 100;
+  constexpr int kHeight = 90;
+  const auto mask = view.rope_mask(kWidth, kHeight);
+  ASSERT_EQ(mask.size(), static_cast<std::size_t>(kWidth) * kHeight);
+  int rope = 0;
+  for (int v = 0; v < kHeight; ++v) {
+    for (int u = 0; u < kWidth; ++u) {
+      const bool is = view.at({static_cast<float>(u), static_cast<float>(v)}, kRope) > 0.5F;
+      ASSERT_EQ(mask[static_cast<std::size_t>(v) * kWidth + static_cast<std::size_t>(u)],
+                is ? 255 : 0)
+          << u << ", " << v;
+      rope += is ? 1 : 0;
+    }
+  }
+  EXPECT_NEAR(rope, 60 * 4, 40) << "of a rope 60 px long and 4 px wide in the frame";
+  EXPECT_EQ(FieldView().rope_mask(3, 2), std::vector<std::uint8_t>(6, 0));
 }
 
 TEST(FieldView, AStrandShowsAlongItselfAndNotAcross) {
