@@ -1,6 +1,5 @@
 #include "estimator/believed_mask.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <span>
@@ -8,6 +7,7 @@
 #include "field/block_map.hpp"
 #include "geometry/mask_box.hpp"
 #include "image/brush.hpp"
+#include "image/masks.hpp"
 
 namespace flowdlo::estimator {
 namespace {
@@ -23,56 +23,50 @@ struct Counts {
   std::size_t both = 0;
   std::size_t beside = 0;  // rope that is not masked
 
-  [[nodiscard]] bool agrees() const { return shared(masked + beside); }
-  [[nodiscard]] bool too_wide() const { return !shared(masked); }
+  void add(bool in_mask, bool rope) {
+    masked += in_mask ? 1 : 0;
+    both += in_mask && rope ? 1 : 0;
+    beside += !in_mask && rope ? 1 : 0;
+  }
+  [[nodiscard]] bool agrees(float share = kAgreeing) const {
+    return shared(masked + beside, share);
+  }
+  [[nodiscard]] bool too_wide() const { return !shared(masked, kAgreeing); }
 
  private:
-  [[nodiscard]] bool shared(std::size_t of) const {
-    return static_cast<float>(both) >= kAgreeing * static_cast<float>(of);
+  [[nodiscard]] bool shared(std::size_t of, float share) const {
+    return static_cast<float>(both) >= share * static_cast<float>(of);
   }
 };
 
-Counts counted(const std::vector<std::uint8_t>& rope, const std::span<const std::uint8_t>& mask) {
+Counts counted(const std::vector<std::uint8_t>& rope, std::span<const std::uint8_t> mask) {
   Counts counts;
-  for (std::size_t p = 0; p < rope.size(); ++p) {
-    const bool in_mask = mask[p] > 127;
-    counts.masked += in_mask ? 1 : 0;
-    counts.both += in_mask && rope[p] != 0 ? 1 : 0;
-    counts.beside += !in_mask && rope[p] != 0 ? 1 : 0;
-  }
+  for (std::size_t p = 0; p < rope.size(); ++p) counts.add(mask[p] > 127, rope[p] != 0);
   return counts;
 }
 
 /// Whether mask and field agree by a first look, a tenth of the time of counting all.
 bool plainly_agrees(const Frame& frame, const field::FieldView& seen) {
-  const image::Rect box = geometry::mask_box(frame);
+  const image::Rect mask = geometry::mask_box(frame);
   const int margin_px = field::kNear_px;
-  std::size_t either = 0;
-  std::size_t both = 0;
-  for (int v = std::max(0, box.y - margin_px);
-       v < std::min(frame.height, box.y + box.height + margin_px); v += kStep_px) {
+  const image::Rect box = image::Rect{mask.x - margin_px, mask.y - margin_px,
+                                      mask.width + 2 * margin_px, mask.height + 2 * margin_px} &
+                          image::Rect{0, 0, frame.width, frame.height};
+  Counts counts;
+  for (int v = box.y; v < box.y + box.height; v += kStep_px) {
     const auto* const row = frame.mask.data() + static_cast<std::size_t>(v) * frame.width;
-    for (int u = std::max(0, box.x - margin_px);
-         u < std::min(frame.width, box.x + box.width + margin_px); u += kStep_px) {
-      const Eigen::Vector2f p(static_cast<float>(u), static_cast<float>(v));
-      const bool rope = seen.at(p, field::kRope) > 0.5F;
-      const bool masked = row[u] > 127;
-      either += rope || masked ? 1 : 0;
-      both += rope && masked ? 1 : 0;
+    for (int u = box.x; u < box.x + box.width; u += kStep_px) {
+      counts.add(row[u] > 127, seen.is_rope({static_cast<float>(u), static_cast<float>(v)}));
     }
   }
-  return both >= kEnough && static_cast<float>(both) >= kPlainly * static_cast<float>(either);
+  return counts.both >= kEnough && counts.agrees(kPlainly);
 }
 
 /// Leaves of `rope` what lies within so many pixels of the mask.
 void keep_near(const Frame& frame, int reach_px, std::vector<std::uint8_t>& rope) {
-  image::Mask mask({frame.width, frame.height});
-  for (int v = 0; v < frame.height; ++v) {
-    const auto* const row = frame.mask.data() + static_cast<std::size_t>(v) * frame.width;
-    std::transform(row, row + frame.width, mask.row(v),
-                   [](std::uint8_t at) { return at > 127 ? std::uint8_t{255} : std::uint8_t{0}; });
-  }
-  const image::Mask near = image::dilated(mask, reach_px);
+  const image::Image<const std::uint8_t> given(frame.mask.data(), {frame.width, frame.height},
+                                               frame.width);
+  const image::Mask near = image::dilated(image::above(given, 127, 255), reach_px);
   for (int v = 0; v < frame.height; ++v) {
     auto* const row = rope.data() + static_cast<std::size_t>(v) * frame.width;
     for (int u = 0; u < frame.width; ++u) row[u] &= near.at(v, u);

@@ -41,7 +41,7 @@ Result<std::optional<field::Axes>> look(const Frame& given, const SeeAxes& see,
   std::optional<field::Axes> axes;
   std::vector<std::uint8_t> mask;
   Frame frame = given;
-  for (int believed = 0; believed <= kMostBelieved; ++believed) {
+  for (int believed = 0;; ++believed) {
     const auto glance = path::glance(frame);
     if (!glance && !axes) return glance.error();
     if (!axes) conditions.cleaned = glance->cleaned;
@@ -53,6 +53,7 @@ Result<std::optional<field::Axes>> look(const Frame& given, const SeeAxes& see,
     axes = std::move(seen);
     conditions.cleaned = glance->cleaned;
     conditions.believed = std::move(mask);
+    if (believed == kMostBelieved) break;
     mask = believed_mask(frame, glance->rope_width_px, *axes);
     if (mask.empty()) break;
     frame.mask = mask;

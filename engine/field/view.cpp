@@ -76,10 +76,11 @@ float FieldView::width_px(const Vector2f& p) const {
   return kRope_px * std::exp2(spot.at(kWidth)) / (0.5F * (scale_.x() + scale_.y()));
 }
 
+bool FieldView::is_rope(const Vector2f& p) const { return at(p, kRope) > kTaken; }
+
 std::vector<std::uint8_t> FieldView::rope_mask(int width, int height) const {
   std::vector<std::uint8_t> mask(static_cast<std::size_t>(width) * height, 0);
   if (channels_.empty()) return mask;
-  const Surface surface(channels_);
   // Of a block that begins at pixel `first` of the region: where the frame's pixels in it begin.
   const auto begin = [this](int first, int axis, int most) {
     const float at = (static_cast<float>(first) - 0.5F - origin_[axis]) / scale_[axis];
@@ -91,8 +92,7 @@ std::vector<std::uint8_t> FieldView::rope_mask(int width, int height) const {
     const int last_u = begin(part.x + part.width, 0, width);
     for (int v = begin(part.y, 1, height); v < last_v; ++v) {
       for (int u = begin(part.x, 0, width); u < last_u; ++u) {
-        const Vector2f p(static_cast<float>(u), static_cast<float>(v));
-        if (surface.at(to_region(p), kRope) <= kTaken) continue;
+        if (!is_rope({static_cast<float>(u), static_cast<float>(v)})) continue;
         mask[static_cast<std::size_t>(v) * width + u] = 255;
       }
     }

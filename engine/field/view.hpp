@@ -38,7 +38,10 @@ class FieldView {
   /// Width of the strand that shows at `p`, pixels of the frame; 0 where none does.
   [[nodiscard]] float width_px(const Eigen::Vector2f& p) const;
 
-  /// [height, width] of the frame: 255 where the field takes a pixel for rope, 0 elsewhere.
+  /// Whether the field takes `p` for rope.
+  [[nodiscard]] bool is_rope(const Eigen::Vector2f& p) const;
+
+  /// [height, width] of the frame: 255 where it `is_rope`, 0 elsewhere.
   [[nodiscard]] std::vector<std::uint8_t> rope_mask(int width, int height) const;
 
   /// [0, 1] how clearly the rope's own end shows within a width ahead of `p`, towards `outward`.

@@ -24,8 +24,8 @@ struct Frame {
   int height = 0;  ///< pixels, 1..4096
   Intrinsics intrinsics;
   std::span<const float> depth_m;  ///< [height, width] z-depth, metres; 0 or not finite: none
-  /// [height, width] the rope, or the ropes, where > 127. A strand field puts that of one rope right
-  /// where it is too wide, too narrow or aside by up to half a rope's width.
+  /// [height, width] the rope, or the ropes, where > 127. A strand field puts that of one rope
+  /// right where it is too wide, too narrow or aside by up to half a rope's width.
   std::span<const std::uint8_t> mask;
   std::span<const std::uint8_t> color_bgr;  ///< [height, width, 3], or empty: not needed
   /// [height, width] which rope the mask shows, 1..65535, 0: none or unknown; or empty: unknown.
